@@ -4,13 +4,13 @@ mod page;
 mod plot;
 
 use std::io::{self, ErrorKind, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::Parser;
-use creepage::FailureResult;
 use creepage::chart::FigureError;
+use creepage::{FailureResult, VerifyOptions};
 use miette::{Diagnostic, MietteHandlerOpts, Report};
 use serde::Serialize;
 use thiserror::Error;
@@ -23,19 +23,9 @@ use verification::{PROBLEMS, Problem, Row, Size, VerifyError};
     version,
     after_help = "Examples:\n  creepage-verify --list\n  creepage-verify hertz-wheel\n  creepage-verify --quick --json > verify.json"
 )]
-struct Options {
-    /// Problems to run [default: all]
-    #[arg(value_name = "NAME")]
-    names: Vec<String>,
-    /// Name all problems and run none
-    #[arg(long, conflicts_with_all = ["names", "quick", "plot"])]
-    list: bool,
-    /// Coarse meshes, for continuous integration
-    #[arg(long)]
-    quick: bool,
-    /// Draw error over mesh size (convergence.svg, .png) and rupture times (rupture.svg, .png) in this folder
-    #[arg(long, value_name = "FOLDER")]
-    plot: Option<PathBuf>,
+struct Line {
+    #[command(flatten)]
+    problems: VerifyOptions,
     /// Print exactly one JSON document on standard output, everything else on standard error
     #[arg(long)]
     json: bool,
@@ -76,10 +66,10 @@ fn main() -> ExitCode {
     let _ = miette::set_hook(Box::new(|_| {
         Box::new(MietteHandlerOpts::new().wrap_lines(false).context_lines(1).build())
     }));
-    let options = Options::parse();
-    ExitCode::from(verify(&options).unwrap_or_else(|failure| {
+    let line = Line::parse();
+    ExitCode::from(verify(&line).unwrap_or_else(|failure| {
         let code = failure.exit_code();
-        if options.json {
+        if line.json {
             // where standard output takes nothing, its failure is the one that is told
             let _ = print_document(&FailureResult::of(&failure, code));
         }
@@ -89,10 +79,11 @@ fn main() -> ExitCode {
 }
 
 /// Runs the problems, shows each as it is done, and returns the exit code.
-fn verify(options: &Options) -> Result<u8, Failure> {
-    let shown = !options.json && !options.quiet;
+fn verify(line: &Line) -> Result<u8, Failure> {
+    let shown = !line.json && !line.quiet;
+    let options = &line.problems;
     if options.list {
-        if options.json {
+        if line.json {
             print_document(&Listed { problems: PROBLEMS })?;
         } else if shown {
             print(&page::names(PROBLEMS))?;
@@ -102,7 +93,7 @@ fn verify(options: &Options) -> Result<u8, Failure> {
     let size = if options.quick { Size::Quick } else { Size::Full };
     let mut rows = Vec::new();
     for problem in chosen(&options.names)? {
-        if !options.quiet {
+        if !line.quiet {
             eprintln!("{}: {}", problem.name, problem.about);
         }
         let clock = Instant::now();
@@ -116,7 +107,7 @@ fn verify(options: &Options) -> Result<u8, Failure> {
         draw(&rows, folder)?;
     }
     let pass = rows.iter().all(|row| row.pass);
-    if options.json {
+    if line.json {
         let results = rows.iter().map(VerificationRow::of).collect();
         print_document(&VerificationResult { results, pass })?;
     } else if shown {

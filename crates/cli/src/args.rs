@@ -38,6 +38,12 @@ impl Args {
         }
     }
 
+    /// The words of `--json` and `--quiet`, for a program that does a command.
+    pub fn shared(&self) -> impl Iterator<Item = &'static str> {
+        let flags = [("--json", self.json), ("--quiet", self.quiet)];
+        flags.into_iter().filter(|(_, given)| *given).map(|(flag, _)| flag)
+    }
+
     /// Says a remark beside the results.
     pub fn say(&self, line: &str) {
         if !self.quiet {

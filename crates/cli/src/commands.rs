@@ -5,16 +5,14 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, ReportOptions, RunOptions,
-    SliderOptions, SweepFound, SweepOptions, ViewOptions,
+    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
+    RunOptions, SliderOptions, SweepFound, SweepOptions, VerifyOptions, ViewOptions,
 };
 use serde::Serialize;
 
 use crate::args::Args;
 use crate::progress::{Remarks, SliderWatch, SweepWatch};
-use crate::render::RenderArgs;
 use crate::report::{self, bench, check, compare, files, mesh, slider};
-use crate::verify::VerifyArgs;
 
 /// Rolling contact of an elastic disk on an elastic bar, by explicit finite elements.
 #[derive(Debug, Parser)]
@@ -91,7 +89,7 @@ pub enum Command {
         pip install 'creepage[render]'. The rigid motion of the disk is not magnified. What the views show: \
         docs/python.md."
     )]
-    Render(RenderArgs),
+    Render(RenderOptions),
     /// Show the bodies and the contact of a run in the browser: turn, zoom, play, read values
     #[command(
         after_help = "Examples:\n  creepage view runs/quick\n  creepage view runs/quick --out quick.html \
@@ -150,7 +148,7 @@ pub enum Command {
         after_help = "Examples:\n  creepage verify --list\n  creepage verify hertz-wheel\n  \
         creepage verify --quick --json > verify.json"
     )]
-    Verify(VerifyArgs),
+    Verify(VerifyOptions),
     /// Measure the element kernel and whole step on this machine, beside what its memory and arithmetic
     /// allow
     #[command(

@@ -50,7 +50,7 @@ pub use conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE
 pub use digits::all_digits;
 pub use error::PostError;
 pub use frames::{ContactHistory, Frame, Recorded};
-pub use import::{ImportError, ImportFiles, Imported, import_contact};
+pub use import::{ImportContactOptions, ImportError, Imported, import_contact};
 pub use integrity::{Depth, verify_case, verify_files};
 pub use law::Law;
 pub use limits::{Limit, Limits, MethodKind};
@@ -99,9 +99,9 @@ impl FromStr for Report {
     }
 }
 
-/// Options of a check.
+/// By what a run is judged, and where the measures of its nodes go.
 #[derive(Clone, Debug)]
-pub struct CheckOptions<'a> {
+pub struct Criteria<'a> {
     /// The window; `None` for the run's evaluation window, or all records where it has none.
     pub window: Option<Span>,
     /// Limits of the measures.
@@ -133,7 +133,7 @@ pub struct Checked {
 pub fn check(
     paths: &RunPaths,
     basis: &mut Basis,
-    options: &CheckOptions<'_>,
+    options: &Criteria<'_>,
 ) -> Result<Checked, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
     let window = Window::resolve(options.window, basis, &history)?;

@@ -12,12 +12,14 @@ mod listener;
 mod mesh;
 mod outputs;
 mod plot;
+mod render;
 mod report;
 mod run;
 mod slider;
 mod sweep;
 mod sweep_folder;
 mod values;
+mod verify;
 mod view;
 
 pub use bench::{BenchOptions, bench};
@@ -27,11 +29,12 @@ pub use error::{
     BAD_INPUT, Error, FAILED, FailureResult, FurtherError, INTERRUPTED, STOPPED_BY_GUARD,
 };
 pub use export_k::{ExportKOptions, ExportedK, export_k};
-pub use import_contact::{ImportContactOptions, ImportedContact, import_contact};
+pub use import_contact::{ImportedContact, import_contact};
 pub use import_k::{ImportKOptions, ImportedK, import_k};
 pub use listener::Listener;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
+pub use render::RenderOptions;
 pub use report::{ReportOptions, Reported, report};
 pub use run::{Ran, run};
 pub use slider::{
@@ -40,4 +43,5 @@ pub use slider::{
 };
 pub use sweep::{SweepFound, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
+pub use verify::VerifyOptions;
 pub use view::{ViewOptions, Viewed, view};

@@ -36,7 +36,7 @@ pub struct Named {
 
 /// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
 /// at two before it, 5.7 us apart (as in the papers) where records allow. `basis` gets scales found in the
-/// records; `window` as in [`CheckOptions`](crate::check::CheckOptions).
+/// records; `window` as in [`Criteria`](crate::check::Criteria).
 ///
 /// # Errors
 /// Files that cannot be read or lack data or scales that the figures need; a window without a record.

@@ -118,7 +118,9 @@ pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_s
 pub use case::CaseSource;
 pub use case::json_schema::json_schema as schema;
 pub use chart::Format;
-pub use check::{CheckResult, Checked, Measure, Pairing, Report as PairingReport};
+pub use check::{
+    CheckResult, Checked, ImportContactOptions, Measure, Pairing, Report as PairingReport,
+};
 pub use commands::*;
 pub use friction::OwnLaw;
 pub use ls_dyna::Units;

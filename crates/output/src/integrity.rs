@@ -13,6 +13,7 @@ use crate::hdf5::damaged;
 use crate::layout::file;
 use crate::summary::Summary;
 use crc32fast::Hasher;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
@@ -31,7 +32,7 @@ const SEAL: &str = "sha256";
 pub const LOG_END: &str = "end: ";
 
 /// Length and CRC-32 of a file.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 pub struct FileSum {
     /// Its length (bytes).
     pub bytes: u64,

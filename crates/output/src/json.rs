@@ -1,7 +1,9 @@
 use crate::OutputError;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::Error as KeyError;
 use serde::de::{IgnoredAny, IntoDeserializer, MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs::File;
@@ -49,6 +51,36 @@ where
     V: Deserialize<'de>,
 {
     from.deserialize_map(Known(PhantomData))
+}
+
+/// The schema of a map whose keys are words of a type.
+pub fn keyed<K: JsonSchema, V: JsonSchema>(generator: &mut SchemaGenerator) -> Schema {
+    let (keys, values) = (generator.subschema_for::<K>(), generator.subschema_for::<V>());
+    json_schema!({ "type": "object", "propertyNames": keys, "additionalProperties": values })
+}
+
+/// A key of a map with more than one name.
+pub trait Aliased {
+    /// Its names beside that which it is written by.
+    fn aliases(&self) -> &'static [&'static str];
+}
+
+/// Writes the value of each key under all its names.
+///
+/// # Errors
+/// As of the serializer.
+pub fn by_all_names<S, K, V>(map: &BTreeMap<K, V>, to: S) -> Result<S::Ok, S::Error>
+where
+    S: Serializer,
+    K: Aliased + Serialize,
+    V: Serialize,
+{
+    let mut entries = to.serialize_map(None)?;
+    for (key, value) in map {
+        entries.serialize_entry(key, value)?;
+        key.aliases().iter().try_for_each(|name| entries.serialize_entry(name, value))?;
+    }
+    entries.end()
 }
 
 struct Known<K, V>(PhantomData<(K, V)>);

@@ -5,6 +5,7 @@
 //! readers ask for datasets by the declaration's names. `docs/files.md` has the same tables, which a test compares.
 
 use crate::field::FieldSpec;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares names with their meaning.
@@ -62,7 +63,9 @@ pub const MORTAR: &str = "mortar";
 
 /// Whether a record at t^n holds, beside its tractions, the slip velocity of the step that ends at t^n or
 /// of the step that begins there.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum Pairing {
     /// p(t^n) with s(t^{n-1/2}).

@@ -58,7 +58,7 @@ pub use field::FieldSpec;
 pub use grid::{Cells, GridSpec, StaticField, TransientGrid, Values};
 pub use history::History;
 pub use integrity::{FileSum, LOG_END, as_long_as_written, as_written, read_summary};
-pub use json::{known, write_json_atomically};
+pub use json::{Aliased, by_all_names, keyed, known, write_json_atomically};
 pub use provenance::Provenance;
 pub use reader::{FieldInfo, GridFile, HistoryFile};
 pub use recognise::{VTKHDF, is_ours};

@@ -4,15 +4,16 @@
 //! columns of sweeps take both from here.
 
 use crate::integrity::{FileSum, checksum_of, sums_of_files};
-use crate::json::{known, write_json_atomically};
+use crate::json::{keyed, known, write_json_atomically};
 use crate::layout::file;
 use crate::{OutputError, Provenance};
+use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 /// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
     /// It reached the end time of its case.
@@ -34,12 +35,12 @@ impl Status {
     }
 }
 
-/// A number of the summary.
+/// A key of the summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quantity {
-    /// Its key in its section.
+    /// The key in its section.
     pub key: &'static str,
-    /// Its SI unit, `1` where it has none.
+    /// Its SI unit, `1` where it has none; empty of what is no number.
     pub units: &'static str,
     /// What it is.
     pub name: &'static str,
@@ -51,16 +52,16 @@ macro_rules! section {
         $($(#[$attribute:meta])* $key:ident: $Type:ty = $name:literal $([$units:literal])?,)*
     }) => {
         $(#[$about])*
-        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
         #[serde(default)]
         pub struct $Section {
             $($(#[$attribute])* #[doc = concat!($name $(, " (", $units, ")")?)] pub $key: $Type,)*
         }
 
         impl $Section {
-            /// Its numbers.
-            pub const QUANTITIES: &[Quantity] =
-                &[$($(Quantity { key: stringify!($key), units: $units, name: $name },)?)*];
+            /// Its keys, in the order of the file.
+            pub const KEYS: &[Quantity] =
+                &[$(Quantity { key: stringify!($key), units: concat!($($units)?), name: $name },)*];
         }
     };
 }
@@ -112,7 +113,7 @@ section! {
 macro_rules! means {
     (contact { $($Contact:ident $contact:ident)* } window { $($Window:ident $window:ident)* }) => {
         /// A mean over the evaluation window.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize)]
         #[serde(rename_all = "snake_case")]
         pub enum Mean {
             $(#[doc = concat!("[`Contact::", stringify!($contact), "`]")] $Contact,)*
@@ -175,6 +176,7 @@ section! {
         from: Option<f64> = "start of the evaluation window" ["s"],
         to: Option<f64> = "end of the evaluation window" ["s"],
         #[serde(deserialize_with = "known")]
+        #[schemars(schema_with = "keyed::<Mean, String>")]
         reasons: BTreeMap<Mean, String> = "why a mean has no value, or how many rows of the history it leaves out",
         stick_border: Option<f64> = "rear end of the longest stick zone on y = 0 from the centre of the patch" ["m"],
         peak_shear: Option<f64> = "largest nodal shear traction on the bar" ["Pa"],
@@ -184,6 +186,7 @@ section! {
         friction_power: Option<f64> = "mean power of friction; T creepage V in steady rolling" ["W"],
         warnings: Vec<String> = "what is wrong with the means",
         #[serde(deserialize_with = "known")]
+        #[schemars(schema_with = "keyed::<Mean, Option<f64>>")]
         deviation: BTreeMap<Mean, Option<f64>> = "standard deviations of the means",
     }
 }
@@ -421,7 +424,7 @@ section! {
 }
 
 /// Files of a run, relative to its folder.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Files {
     /// Fields of both bodies; empty where the run has no such file.
@@ -467,31 +470,49 @@ fn null_is_nan<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
     Ok(Option::deserialize(from)?.unwrap_or(f64::NAN))
 }
 
-/// A section of the summary: its key, empty for the numbers outside sections; its numbers; whether a summary has it.
+/// A section of the summary: its key, empty for the keys outside sections; its keys; whether a summary has it.
 type Section = (&'static str, &'static [Quantity], fn(&Summary) -> bool);
 
 const SECTIONS: [Section; 15] = [
-    ("", Summary::QUANTITIES, |_| true),
-    ("energy", Energy::QUANTITIES, |_| true),
-    ("contact", Contact::QUANTITIES, |_| true),
-    ("window", Window::QUANTITIES, |summary| summary.window.is_some()),
-    ("checks", Checks::QUANTITIES, |summary| summary.checks.is_some()),
-    ("mesh_mode", MeshMode::QUANTITIES, |summary| summary.mesh_mode.is_some()),
-    ("half_space", HalfSpace::QUANTITIES, |summary| summary.half_space.is_some()),
-    ("stability", Stability::QUANTITIES, |summary| summary.stability.is_some()),
-    ("rolling_radius", RollingRadius::QUANTITIES, |summary| summary.rolling_radius.is_some()),
-    ("preload", Preload::QUANTITIES, |summary| summary.preload.is_some()),
-    ("numbers", Numbers::QUANTITIES, |summary| summary.numbers.is_some()),
-    ("exact_contact", ExactContact::QUANTITIES, |summary| summary.exact_contact.is_some()),
-    ("implicit", Implicit::QUANTITIES, |summary| summary.implicit.is_some()),
-    ("spectral", Spectral::QUANTITIES, |summary| summary.spectral.is_some()),
-    ("mesh_window", MeshWindow::QUANTITIES, |summary| summary.mesh_window.is_some()),
+    ("", Summary::KEYS, |_| true),
+    ("energy", Energy::KEYS, |_| true),
+    ("contact", Contact::KEYS, |_| true),
+    ("window", Window::KEYS, |summary| summary.window.is_some()),
+    ("checks", Checks::KEYS, |summary| summary.checks.is_some()),
+    ("mesh_mode", MeshMode::KEYS, |summary| summary.mesh_mode.is_some()),
+    ("half_space", HalfSpace::KEYS, |summary| summary.half_space.is_some()),
+    ("stability", Stability::KEYS, |summary| summary.stability.is_some()),
+    ("rolling_radius", RollingRadius::KEYS, |summary| summary.rolling_radius.is_some()),
+    ("preload", Preload::KEYS, |summary| summary.preload.is_some()),
+    ("numbers", Numbers::KEYS, |summary| summary.numbers.is_some()),
+    ("exact_contact", ExactContact::KEYS, |summary| summary.exact_contact.is_some()),
+    ("implicit", Implicit::KEYS, |summary| summary.implicit.is_some()),
+    ("spectral", Spectral::KEYS, |summary| summary.spectral.is_some()),
+    ("mesh_window", MeshWindow::KEYS, |summary| summary.mesh_window.is_some()),
 ];
 
 /// The number at `key` of a section, empty for those outside sections; `None` for `stages` and for what is no number.
 pub fn quantity(section: &str, key: &str) -> Option<Quantity> {
-    let (_, quantities, _) = SECTIONS.iter().find(|(name, ..)| *name == section)?;
-    quantities.iter().find(|quantity| quantity.key == key).copied()
+    let (_, keys, _) = SECTIONS.iter().find(|(name, ..)| *name == section)?;
+    keys.iter().find(|quantity| quantity.key == key && quantity.is_number()).copied()
+}
+
+/// All dotted keys, in the order of the file: those of a section follow its own.
+pub fn dotted_keys() -> Vec<(String, Quantity)> {
+    let mut all = Vec::new();
+    for own in Summary::KEYS {
+        all.push((own.key.to_owned(), *own));
+        let of_section = SECTIONS.iter().filter(|(name, ..)| *name == own.key);
+        let keys = of_section.flat_map(|(_, keys, _)| *keys);
+        all.extend(keys.map(|key| (format!("{}.{}", own.key, key.key), *key)));
+    }
+    all
+}
+
+impl Quantity {
+    fn is_number(&self) -> bool {
+        !self.units.is_empty()
+    }
 }
 
 impl Mean {
@@ -510,8 +531,8 @@ impl Summary {
             _ => format!("{section}.{key}"),
         };
         let (mut units, mut names) = (BTreeMap::new(), BTreeMap::new());
-        for (section, quantities, _) in SECTIONS.iter().filter(|(.., has)| has(self)) {
-            for quantity in *quantities {
+        for (section, keys, _) in SECTIONS.iter().filter(|(.., has)| has(self)) {
+            for quantity in keys.iter().filter(|quantity| quantity.is_number()) {
                 let key = dotted(section, quantity.key);
                 units.insert(key.clone(), quantity.units.to_owned());
                 names.insert(key, quantity.name.to_owned());

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use output::layout::{self, CONTACT, Pairing, attribute, file};
+use output::summary::dotted_keys;
 
 /// Names in the order of the files: scripts rely on them.
 const NAMES: [(&str, &str); 5] = [
@@ -65,6 +66,20 @@ fn with_block(document: &str, name: &str, block: &str) -> String {
     format!("{head}{start}{block}<!-- end of layout -->{tail}")
 }
 
+/// Compares a document with what it should be; `BLESS=1` writes it instead.
+fn compare(path: &str, document: &str, wanted: &str) {
+    if std::env::var_os("BLESS").is_some() {
+        std::fs::write(path, wanted).unwrap();
+    } else {
+        assert!(document == wanted, "{path} differs from its declaration in crates/output/src");
+    }
+}
+
+// a bar would end a cell
+fn cell(text: &str) -> String {
+    text.replace('|', "\\|")
+}
+
 #[test]
 fn the_document_has_the_tables_of_the_declaration() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/files.md");
@@ -73,26 +88,27 @@ fn the_document_has_the_tables_of_the_declaration() {
     for (file, fields) in layout::files() {
         let mut table = String::from("| dataset | units | shape | meaning |\n|---|---|---|---|\n");
         for field in fields {
-            // a bar would end the cell
-            let meaning = field.description.replace('|', "\\|");
-            table += &format!(
-                "| `{}` | {} | {} | {meaning} |\n",
-                field.name,
-                field.units,
-                field.shape()
-            );
+            let (name, meaning) = (&field.name, cell(&field.description));
+            table += &format!("| `{name}` | {} | {} | {meaning} |\n", field.units, field.shape());
         }
         wanted = with_block(&wanted, file, &table);
     }
     let lines = attribute::ALL.map(|(name, meaning)| format!("| `{name}` | {meaning} |\n"));
     let table = format!("| attribute | meaning |\n|---|---|\n{}", lines.concat());
     wanted = with_block(&wanted, "attributes", &table);
-    if std::env::var_os("BLESS").is_some() {
-        std::fs::write(path, &wanted).unwrap();
-        return;
-    }
-    assert!(document == wanted, "docs/files.md differs from crates/output/src/layout.rs");
+    compare(path, &document, &wanted);
     for (file, _) in file::ALL {
         assert!(document.contains(&format!("| `{file}` |")), "{file}");
     }
+}
+
+#[test]
+fn the_table_of_the_summary_has_every_key_with_its_unit_and_meaning() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/tables/summary.md");
+    let document = std::fs::read_to_string(path).unwrap();
+    let mut table = String::from("| key | units | meaning |\n|---|---|---|\n");
+    for (key, quantity) in dotted_keys() {
+        table += &format!("| `{key}` | {} | {} |\n", quantity.units, cell(quantity.name));
+    }
+    compare(path, &document, &with_block(&document, file::SUMMARY, &table));
 }

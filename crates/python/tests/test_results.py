@@ -86,6 +86,9 @@ def test_a_check_is_the_document_of_the_command_line(small):
     with pytest.raises(creepage.LimitError, match="law_error") as caught:
         small.check(limits={"law_error": 1e-9}, strict=True)
     assert caught.value.code == 1
+    with pytest.raises(creepage.LimitError) as caught:
+        small.check(limits={"law_error_let_slip": 1e-30}, strict=True)
+    assert "law_error_slip_state" in str(caught.value) and "law_error_let_slip" not in str(caught.value)
     with pytest.raises(creepage.CaseError, match="no_such_measure"):
         small.check(limits={"no_such_measure": 1.0})
 

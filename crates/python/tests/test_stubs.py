@@ -46,3 +46,10 @@ def test_stubs_have_every_public_name_with_its_parameters():
 def test_every_public_name_has_a_docstring():
     for name in creepage.__all__:
         assert inspect.getdoc(getattr(creepage, name)), name
+
+
+def test_the_types_of_documents_have_every_key_of_the_documents(small):
+    results = ast.parse((Path(creepage.__file__).parent / "_results.pyi").read_text())
+    types = {node.targets[0].id: node.value for node in results.body if isinstance(node, ast.Assign)}
+    for name, document in [("Summary", small.summary), ("CheckResult", small.check())]:
+        assert set(document) <= {key.value for key in types[name].args[1].keys}, name

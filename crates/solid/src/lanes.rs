@@ -7,6 +7,7 @@
 
 use mesh::Padded;
 use std::ops::{Add, Div, Mul, Sub};
+use std::str::FromStr;
 
 #[cfg(target_arch = "aarch64")]
 pub(crate) mod neon;
@@ -82,6 +83,14 @@ impl Level {
             Self::Fused => "fused",
             Self::Portable => "portable",
         }
+    }
+}
+
+impl FromStr for Level {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        Self::named(name).ok_or("one of avx512, avx2, neon, fused, portable is needed")
     }
 }
 

@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::sync::OnceLock;
 
-use creepage::check::{Basis, CheckOptions, Limits, Report, RunPaths};
+use creepage::check::{Basis, Criteria, Limits, Report, RunPaths};
 use output::{Checkpoint, GridFile, HistoryFile};
 use rust_hdf5::format::checksum::checksum_metadata;
 
@@ -49,7 +49,7 @@ pub fn grid(data: &[u8]) {
         for (name, value) in [("speed", 40.0), ("creepage", 2e-3), ("shear_wave", 3e3)] {
             basis.offer(name, value, "here");
         }
-        let options = CheckOptions {
+        let options = Criteria {
             window: None,
             limits: Limits::for_enforcement(None),
             report: Report::Stated,

@@ -120,15 +120,14 @@ pub fn import(data: &[u8]) {
         for path in &paths {
             write(path, tables.next().unwrap_or_default());
         }
-        let [nodes, faces, values] = &paths;
+        let [nodes, faces, values] = paths;
         let out = folder.join("imported.vtkhdf");
-        match creepage::check::import_contact(&creepage::check::ImportFiles {
-            nodes,
-            faces,
-            values,
-            out: &out,
-        }) {
-            Ok(_) => assert!(output::GridFile::open(&out).is_ok(), "what was made can be read"),
+        let options = creepage::ImportContactOptions { nodes, faces, values, out };
+        match creepage::check::import_contact(&options) {
+            Ok(_) => {
+                let made = output::GridFile::open(&options.out);
+                assert!(made.is_ok(), "what was made can be read");
+            }
             Err(error) => drop(black_box(error.to_string())),
         }
     });

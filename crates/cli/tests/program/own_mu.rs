@@ -244,25 +244,25 @@ fn with_two_passes_of_springs_the_mu_of_every_law_is_recomputed_and_a_wrong_one_
 const MEMORY: &[&str] = &["law='exponential'", "dynamic=0.2", "memory.distance=1e-6"];
 
 #[test]
-fn between_records_of_many_steps_a_law_with_memory_is_known_as_far_as_it_is_blurred() {
+fn between_records_of_many_steps_a_law_with_memory_is_known_with_its_uncertainty() {
     let folder = tempfile::tempdir().unwrap();
     let run = folder.path().join("run");
     roll(&run, MEMORY, &["contact.enforcement='exact'"], &["time.roll=0.004"]);
     let (_, found) = check(&run, &[]);
     let followed = &found["law_followed"];
-    assert_eq!((&followed["known"], &followed["blurred"]), (&0.0.into(), &1.0.into()));
+    assert_eq!((&followed["known"], &followed["uncertain"]), (&0.0.into(), &1.0.into()));
     assert!(found["metrics"]["mu_error"]["value"].is_null());
-    let blurred = &found["metrics"]["mu_error_blurred"];
-    assert_eq!(blurred["pass"], true, "{blurred:#}");
-    let blur = blurred["sides"]["disk"]["blur_rms"].as_f64().unwrap();
-    assert!(blur > 1e-3 && blur < 0.5, "{blur}");
+    let uncertain = &found["metrics"]["mu_error_uncertain"];
+    assert_eq!(uncertain["pass"], true, "{uncertain:#}");
+    let rms = uncertain["sides"]["disk"]["uncertainty_rms"].as_f64().unwrap();
+    assert!(rms > 1e-3 && rms < 0.5, "{rms}");
     let notes = found["notes"].to_string();
     assert!(notes.contains("not every step since contact began is recorded"), "{notes}");
-    // beyond the blur a coefficient is found all the same
+    // beyond the uncertainty a coefficient is found all the same
     let copy = folder.path().join("copy");
     plant(&run, &copy, &["mu"], 1.5);
     let (code, found) = check(&copy, &[]);
-    assert_eq!((code, &found["metrics"]["mu_error_blurred"]["pass"]), (Some(1), &false.into()));
+    assert_eq!((code, &found["metrics"]["mu_error_uncertain"]["pass"]), (Some(1), &false.into()));
 }
 
 #[test]
@@ -277,7 +277,7 @@ fn a_law_that_forgets_is_known_again_once_every_step_is_recorded_for_long_enough
     assert_eq!(found["law_followed"]["known"], 1.0, "{:#}", found["law_followed"]);
     assert!(found["metrics"]["mu_error"]["value"].as_f64().unwrap() < 1e-9);
     let (_, found) = check(&run, &["--window", "30e-6:32e-6"]);
-    assert!(found["law_followed"]["blurred"].as_f64().unwrap() > 0.5);
+    assert!(found["law_followed"]["uncertain"].as_f64().unwrap() > 0.5);
 }
 
 #[test]

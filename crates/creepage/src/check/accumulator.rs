@@ -25,7 +25,7 @@ pub(crate) struct Accumulator {
     law_error_own: Spread,
     /// The law and the direction at nodes whose state by the algorithm is slip. The compliance of penalty springs at
     /// nodes that stick is left out: what remains are errors of the algorithm itself.
-    let_slip: [Spread; 2],
+    slip_state: [Spread; 2],
     direction: Spread,
     /// Weight of slip that shear drives (angle above 90 degrees), and of all slip.
     wrong: [f64; 2],
@@ -64,7 +64,7 @@ impl Accumulator {
             power_of_records: Moments::default(),
             law_error: Spread::default(),
             law_error_own: Spread::default(),
-            let_slip: Default::default(),
+            slip_state: Default::default(),
             direction: Spread::default(),
             wrong: [0.0; 2],
             adhesion_slip: Spread::default(),
@@ -95,8 +95,8 @@ impl Accumulator {
         }
         if let Some(error) = judged.law_error {
             self.law_error.add(weight, error, row, time);
-            if judged.let_slip {
-                self.let_slip[0].add(weight, error, row, time);
+            if judged.slip_state {
+                self.slip_state[0].add(weight, error, row, time);
             }
         }
         if let Some(error) = judged.law_error_own {
@@ -104,8 +104,8 @@ impl Accumulator {
         }
         if let Some(angle) = judged.direction {
             self.direction.add(weight, angle, row, time);
-            if judged.let_slip {
-                self.let_slip[1].add(weight, angle, row, time);
+            if judged.slip_state {
+                self.slip_state[1].add(weight, angle, row, time);
             }
             self.wrong_record[0] += if angle > 90.0 { weight } else { 0.0 };
             self.wrong_record[1] += weight;
@@ -165,7 +165,7 @@ impl Accumulator {
                 shares.add(span, part / whole);
             }
         }
-        let [law, direction] = &mut self.let_slip;
+        let [law, direction] = &mut self.slip_state;
         for spread in [
             &mut self.law_error,
             &mut self.law_error_own,
@@ -195,16 +195,16 @@ impl Accumulator {
         };
         let spread = |of: &Spread| by(of, of.rms(), of.deviation_of_rms());
         let plain = |value, place| Statistic { value, deviation: None, place, more: Vec::new() };
-        let also = |mut statistic: Statistic, let_slip: &Spread| {
-            statistic.more.push((Detail::RmsWhereLetSlip, let_slip.rms()));
+        let also = |mut statistic: Statistic, slip_state: &Spread| {
+            statistic.more.push((Detail::RmsSlipState, slip_state.rms()));
             statistic
         };
         match measure {
-            Measure::LawError => also(spread(&self.law_error), &self.let_slip[0]),
+            Measure::LawError => also(spread(&self.law_error), &self.slip_state[0]),
             Measure::LawErrorOwn => spread(&self.law_error_own),
-            Measure::Direction => also(spread(&self.direction), &self.let_slip[1]),
-            Measure::LawErrorLetSlip => spread(&self.let_slip[0]),
-            Measure::DirectionLetSlip => spread(&self.let_slip[1]),
+            Measure::Direction => also(spread(&self.direction), &self.slip_state[1]),
+            Measure::LawErrorSlipState => spread(&self.slip_state[0]),
+            Measure::DirectionSlipState => spread(&self.slip_state[1]),
             Measure::WrongDirection => {
                 let worst = self.direction.worst.filter(|worst| worst.value > 90.0);
                 let place = worst.map(|w| (Some(w.node), w.time, w.value));
@@ -245,7 +245,7 @@ impl Accumulator {
             | Measure::Complementarity
             | Measure::Cone
             | Measure::MuError
-            | Measure::MuErrorBlurred
+            | Measure::MuErrorUncertain
             | Measure::MeshMode => plain(None, None),
         }
     }
@@ -296,9 +296,9 @@ pub(crate) struct MuErrors {
     /// Where the law's coefficient is known to round-off.
     known: MuError,
     /// Where it is known to lie in an interval only.
-    blurred: MuError,
+    uncertain: MuError,
     /// 1 - low/high of that interval.
-    blur: Spread,
+    uncertainty: Spread,
     /// Weight of contact where the law's coefficient is not known.
     pub unknown: f64,
 }
@@ -354,16 +354,16 @@ impl MuErrors {
             self.unknown += weight;
             return;
         };
-        let off = if law.known { &mut self.known } else { &mut self.blurred };
+        let off = if law.known { &mut self.known } else { &mut self.uncertain };
         off.add(row, time, weight, used, law.nearest(used));
         if !law.known && law.high > 0.0 {
-            self.blur.add(weight, 1.0 - law.low / law.high, row, time);
+            self.uncertainty.add(weight, 1.0 - law.low / law.high, row, time);
         }
     }
 
-    /// Weights of contact where the law is known, blurred, and not known.
+    /// Weights of contact where the law is known, uncertain, and not known.
     pub fn weights(&self) -> [f64; 3] {
-        [self.known.sums[0], self.blurred.sums[0], self.unknown]
+        [self.known.sums[0], self.uncertain.sums[0], self.unknown]
     }
 }
 
@@ -403,7 +403,7 @@ impl SideAccumulator {
             &mut self.complementarity,
             &mut self.cone,
             &mut self.mu.known.error,
-            &mut self.mu.blurred.error,
+            &mut self.mu.uncertain.error,
         ] {
             spread.end_record(span);
         }
@@ -420,13 +420,13 @@ impl SideAccumulator {
                 let known = &self.mu.known;
                 return Some(known.statistic(known.error.largest()));
             }
-            Measure::MuErrorBlurred => {
-                let blurred = &self.mu.blurred;
-                let mut found = blurred.statistic(blurred.error.quantile(0.5));
-                let blur = &self.mu.blur;
-                found.more.push((Detail::BlurMedian, blur.quantile(0.5)));
-                found.more.push((Detail::BlurRms, blur.rms()));
-                found.more.push((Detail::BlurP95, blur.quantile(0.95)));
+            Measure::MuErrorUncertain => {
+                let off = &self.mu.uncertain;
+                let mut found = off.statistic(off.error.quantile(0.5));
+                let uncertainty = &self.mu.uncertainty;
+                found.more.push((Detail::UncertaintyMedian, uncertainty.quantile(0.5)));
+                found.more.push((Detail::UncertaintyRms, uncertainty.rms()));
+                found.more.push((Detail::UncertaintyP95, uncertainty.quantile(0.95)));
                 return Some(found);
             }
             _ => return None,

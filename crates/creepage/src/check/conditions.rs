@@ -41,7 +41,7 @@ pub(crate) struct Judged {
     /// Whether |s| is above the threshold.
     pub slips: bool,
     /// Whether its state by the algorithm is slip.
-    pub let_slip: bool,
+    pub slip_state: bool,
     /// mu(|s|) of the law; of a law with state the recomputed coefficient.
     pub mu_law: Option<f64>,
     /// p_f/(mu p_n) - 1 with that coefficient, where it slips.
@@ -103,7 +103,7 @@ impl Judge {
             relative_speed: speed / self.slip_speed,
             ratio,
             slips,
-            let_slip: node.state == Some(2),
+            slip_state: node.state == Some(2),
             mu_law,
             law_error,
             law_error_own,

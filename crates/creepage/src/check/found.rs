@@ -1,7 +1,7 @@
 //! What a check found, from the measures accumulated over the records.
 
 use super::evaluation::{Channel, Evaluation};
-use super::{CheckOptions, Report};
+use super::{Criteria, Report};
 use crate::check::accumulator::{Statistic, Switches};
 use crate::check::basis::{Basis, Bound, SCALES};
 use crate::check::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
@@ -35,7 +35,7 @@ impl Evaluation<'_> {
     pub fn result(
         &self,
         basis: &Basis,
-        options: &CheckOptions<'_>,
+        options: &Criteria<'_>,
         window: &Window,
         beside: Beside,
     ) -> CheckResult {
@@ -118,8 +118,9 @@ impl Evaluation<'_> {
             }
         }
         let all: f64 = sums.iter().sum();
-        let [known, blurred, unknown] = sums.map(|sum| (all > 0.0).then(|| sum / all));
-        LawFollowed { known, blurred, unknown, note: self.replay.as_ref().err().cloned() }
+        let [known, uncertain, unknown] = sums.map(|sum| (all > 0.0).then(|| sum / all));
+        let note = self.replay.as_ref().err().cloned();
+        LawFollowed { known, uncertain, blurred: uncertain, unknown, note }
     }
 
     /// A note on where the law's coefficient is not known to round-off, and why.
@@ -135,14 +136,14 @@ impl Evaluation<'_> {
             });
         }
         let percent = |share: Option<f64>| 100.0 * share.unwrap_or(0.0);
-        if percent(followed.blurred) == 0.0 {
+        if percent(followed.uncertain) == 0.0 {
             return None;
         }
-        let sides = match &metrics[&Measure::MuErrorBlurred].sides {
+        let sides = match &metrics[&Measure::MuErrorUncertain].sides {
             Some(Sides::Views(views)) => views.values().collect(),
             _ => Vec::new(),
         };
-        let blur = |detail: Detail| {
+        let uncertainty = |detail: Detail| {
             let of = |on: &&OnView| match on {
                 OnView::Single(statistics) => statistics.more.get(&detail).copied().flatten(),
                 OnView::Paired(_) => None,
@@ -161,9 +162,9 @@ impl Evaluation<'_> {
             "on {:.0} % of contact area and time, not every step since contact began is recorded{late}: there \
              the law's mu is known only to {:.2} % (median; 95 % of it to {:.2} %), and on {:.0} % to \
              round-off (record every step from the start, or for long enough, in an [[output.window]])",
-            percent(followed.blurred),
-            blur(Detail::BlurMedian),
-            blur(Detail::BlurP95),
+            percent(followed.uncertain),
+            uncertainty(Detail::UncertaintyMedian),
+            uncertainty(Detail::UncertaintyP95),
             percent(followed.known)
         ))
     }
@@ -355,18 +356,20 @@ impl Evaluation<'_> {
         match measure {
             M::Penetration | M::Complementarity if !has.gap => "the file has no field gap",
             M::Penetration | M::Complementarity => "the scale approach is not known",
-            M::LawError | M::LawErrorLetSlip | M::RoughnessRatio | M::LawScatter if no_law => {
+            M::LawError | M::LawErrorSlipState | M::RoughnessRatio | M::LawScatter if no_law => {
                 "the friction law is not known"
             }
-            M::LawErrorLetSlip | M::DirectionLetSlip if !has.state => "the file has no field state",
-            M::LawErrorOwn | M::MuError | M::MuErrorBlurred if !has.mu => {
+            M::LawErrorSlipState | M::DirectionSlipState if !has.state => {
+                "the file has no field state"
+            }
+            M::LawErrorOwn | M::MuError | M::MuErrorUncertain if !has.mu => {
                 "the file has no field mu"
             }
-            M::MuError | M::MuErrorBlurred if self.replay.is_err() => {
+            M::MuError | M::MuErrorUncertain if self.replay.is_err() => {
                 "the law's mu cannot be recomputed, see the note"
             }
             M::MuError => "no node has every step recorded since its contact began",
-            M::MuErrorBlurred => "every step that the law's mu needs is recorded",
+            M::MuErrorUncertain => "every step that the law's mu needs is recorded",
             M::RoughnessRatio if matches!(basis.law, Some(Law::Coulomb(_))) => {
                 "the law's coefficient is constant"
             }
@@ -380,7 +383,7 @@ impl Evaluation<'_> {
                 "the law is not a function of slip speed alone, or its graph is not known"
             }
             M::AdhesionSlip => "no node is in adhesion",
-            M::LawErrorLetSlip | M::DirectionLetSlip => "the algorithm lets no node slip",
+            M::LawErrorSlipState | M::DirectionSlipState => "the algorithm lets no node slip",
             _ => "no node slips",
         }
     }
@@ -398,7 +401,7 @@ fn compliance_note(metrics: &BTreeMap<Measure, Metric>) -> Option<String> {
         .filter(|measure| !metrics[measure].pass)
         .map(|measure| measure.name())
         .collect();
-    let own = [Measure::LawErrorLetSlip, Measure::DirectionLetSlip];
+    let own = [Measure::LawErrorSlipState, Measure::DirectionSlipState];
     let measured_and_kept = |measure: &Measure| {
         metrics[measure].value.is_some() && metrics[measure].keeps_limit() == Some(true)
     };

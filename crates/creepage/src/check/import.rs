@@ -4,27 +4,38 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use output::files::input;
-use output::layout::{CONSTANT, CONTACT, HISTORY};
+use output::layout::{CONSTANT, CONTACT, HISTORY, file};
 use output::{
     Cells, FieldSpec, GridSpec, OutputError, Provenance, StaticField, TransientGrid, Values,
 };
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Paths of the CSV tables of a contact history and of the file to write.
-#[derive(Clone, Copy, Debug)]
-pub struct ImportFiles<'a> {
-    /// Nodes, one a row: `x`, `y`, `z` (m) and optionally `area` (m2); the first row is node 0.
-    pub nodes: &'a Path,
-    /// Faces, one a row: `n0` to `n3` (counter-clockwise seen from outside) and `body` (0 disk, 1 bar).
-    pub faces: &'a Path,
-    /// Values, one row per time and node, times rising: `time` (s), `node`, `pressure` (Pa), `shear_x` to `_z` (Pa,
-    /// on this surface), `slip_velocity_x` to `_z` (m/s, relative to the other surface), and optionally `gap` (m),
-    /// `mu`, `state`, `velocity_x` to `_z` (m/s), `displacement_x` to `_z` (m). Nodes without a row at a time are
-    /// open: all their values are zero.
-    pub values: &'a Path,
-    /// The file to write.
-    pub out: &'a Path,
+/// The tables to read, and the file to write.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct ImportContactOptions {
+    /// Nodes, one a row: x, y, z (m) and, if wanted, area (m2); the first row is node 0
+    #[cfg_attr(feature = "clap", arg(long, value_name = "NODES.csv"))]
+    pub nodes: PathBuf,
+    /// Faces, one a row: n0, n1, n2, n3 (counter-clockwise seen from outside) and body (0 disk,
+    /// 1 bar)
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FACES.csv"))]
+    pub faces: PathBuf,
+    /// Values, one row per time and node, times rising: time, node, pressure, shear_x, shear_y,
+    /// shear_z, slip_velocity_x, ..., and, if wanted, gap, mu, state, velocity_x, ...,
+    /// displacement_x, ...; nodes without a row are open
+    #[cfg_attr(feature = "clap", arg(long, value_name = "VALUES.csv"))]
+    pub values: PathBuf,
+    /// The file to write
+    #[serde(default = "contact_file")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.vtkhdf", default_value = file::CONTACT))]
+    pub out: PathBuf,
+}
+
+fn contact_file() -> PathBuf {
+    file::CONTACT.into()
 }
 
 /// The size of an imported history.
@@ -73,8 +84,8 @@ static FIELDS: [(&FieldSpec, bool); 8] = [
 /// # Errors
 /// A table that cannot be read, lacks a column, or has a value that is no number, a node or body that does not
 /// exist, or a time that falls; a file that cannot be written.
-pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> {
-    let mut nodes = Table::open(files.nodes)?;
+pub fn import_contact(files: &ImportContactOptions) -> Result<Imported, ImportError> {
+    let mut nodes = Table::open(&files.nodes)?;
     let place = nodes.columns(&["x", "y", "z"])?;
     let area_column = nodes.column(&CONSTANT.area.name);
     let (mut points, mut areas) = (Vec::new(), Vec::new());
@@ -82,7 +93,7 @@ pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> 
         points.push([row[place[0]], row[place[1]], row[place[2]]]);
         areas.extend(area_column.map(|column| row[column]));
     }
-    let mut table = Table::open(files.faces)?;
+    let mut table = Table::open(&files.faces)?;
     let corners = table.columns(&["n0", "n1", "n2", "n3"])?;
     let body_column = table.columns(&[&CONSTANT.body.name])?[0];
     let (mut faces, mut body) = (Vec::new(), Vec::new());
@@ -100,13 +111,13 @@ pub fn import_contact(files: &ImportFiles<'_>) -> Result<Imported, ImportError> 
 
 /// Reads the values time by time and writes each record as soon as it is complete.
 fn values(
-    files: &ImportFiles<'_>,
+    files: &ImportContactOptions,
     points: &[[f64; 3]],
     areas: &[f64],
     faces: &[[u32; 4]],
     body: &[u8],
 ) -> Result<(usize, usize), ImportError> {
-    let mut table = Table::open(files.values)?;
+    let mut table = Table::open(&files.values)?;
     let key = table.columns(&[&HISTORY.time.name, "node"])?;
     let mut fields = Vec::new();
     for (field, needed) in FIELDS {
@@ -131,7 +142,7 @@ fn values(
         created: "imported".into(),
         attributes: Vec::new(),
     };
-    let mut file = TransientGrid::create(files.out, &grid, &specs, &provenance)?;
+    let mut file = TransientGrid::create(&files.out, &grid, &specs, &provenance)?;
     let mut record = Record::new(points.len(), &specs);
     let mut time: Option<f64> = None;
     let mut rows = 0;

@@ -1,6 +1,7 @@
 //! The measures of the contact conditions, each declared once: name, unit, statistic, definition, limits.
 
 use crate::check::limits::Limit;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
@@ -10,6 +11,8 @@ use std::str::FromStr;
 pub struct Definition {
     /// Its name in documents and options, on which scripts rely.
     pub name: &'static str,
+    /// Other names, which options take, and under which documents hold its value too.
+    pub aliases: &'static [&'static str],
     /// Unit of its value.
     pub units: &'static str,
     /// The statistic over nodes and times that its value is: `max`, `rms`, `share` and so on.
@@ -22,14 +25,14 @@ pub struct Definition {
     pub penalty: Option<Limit>,
 }
 
-/// Declares the measures, in the order in which tables show them: unit, statistic, definition, limit for exact
-/// methods, limit for penalty methods.
+/// Declares the measures, in the order in which tables show them: name, alias, unit, statistic, definition, limit for
+/// exact methods, limit for penalty methods.
 macro_rules! measures {
-    ($($Measure:ident $name:literal ($units:literal, $statistic:literal, $about:literal, $exact:expr, $penalty:expr))*) => {
+    ($($Measure:ident $name:literal $(alias $alias:literal)? ($units:literal, $statistic:literal, $about:literal, $exact:expr, $penalty:expr))*) => {
         /// A measure of the contact conditions; `docs/checks.md` defines each.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize)]
         pub enum Measure {
-            $(#[doc = concat!($about, " (", $units, ", ", $statistic, ")")] #[serde(rename = $name)] $Measure,)*
+            $(#[doc = concat!($about, " (", $units, ", ", $statistic, ")")] #[serde(rename = $name $(, alias = $alias)?)] $Measure,)*
         }
 
         impl Measure {
@@ -40,7 +43,8 @@ macro_rules! measures {
             pub const fn definition(self) -> Definition {
                 match self {
                     $(Self::$Measure => Definition {
-                        name: $name, units: $units, statistic: $statistic, about: $about, exact: $exact, penalty: $penalty,
+                        name: $name, aliases: &[$($alias)?], units: $units, statistic: $statistic, about: $about,
+                        exact: $exact, penalty: $penalty,
                     },)*
                 }
             }
@@ -56,13 +60,16 @@ measures! {
     AdhesionSlip "adhesion_slip" ("1", "max", "|s|/s_c below 0.98 of the bound", most(1e-3), None)
     MuError "mu_error"
         ("1", "max", "mu used over the law's, recomputed from the records, - 1", most(1e-10), most(TWO_PASSES))
-    MuErrorBlurred "mu_error_blurred"
-        ("1", "median", "the same beyond the blur, where not every step is recorded", most(MU_BLURRED), most(MU_BLURRED))
+    MuErrorUncertain "mu_error_uncertain" alias "mu_error_blurred"
+        ("1", "median", "the same beyond the uncertainty, where not every step is recorded", most(MU_UNCERTAIN),
+            most(MU_UNCERTAIN))
     LawError "law_error" ("1", "rms", "p_f/(mu(|s|) p_n) - 1 in slip", None, most(0.02))
     LawErrorOwn "law_error_own" ("1", "rms", "the same with the mu used", most(1e-8), None)
-    LawErrorLetSlip "law_error_let_slip" ("1", "rms", "law_error where the algorithm lets slip", None, most(0.02))
+    LawErrorSlipState "law_error_slip_state" alias "law_error_let_slip"
+        ("1", "rms", "law_error where the algorithm's state is slip", None, most(0.02))
     Direction "direction" ("deg", "rms", "angle of the shear from -s in slip", most(0.1), most(5.0))
-    DirectionLetSlip "direction_let_slip" ("deg", "rms", "direction where the algorithm lets slip", None, most(5.0))
+    DirectionSlipState "direction_slip_state" alias "direction_let_slip"
+        ("deg", "rms", "direction where the algorithm's state is slip", None, most(5.0))
     WrongDirection "wrong_direction" ("1", "share", "slip with that angle above 90 deg", None, None)
     Dissipation "dissipation" ("1", "share", "contact power of the wrong sign", most(0.0), None)
     ViolatingFraction "violating_fraction" ("1", "share", "of the contact area", most(0.0), most(0.05))
@@ -76,8 +83,8 @@ measures! {
 /// Limit of `mu_error` for penalty springs: the coefficient of a node is the mean over both passes, whose
 /// projections are recomputed to a tenth of this.
 const TWO_PASSES: f64 = 1e-4;
-/// Limit of `mu_error_blurred`.
-const MU_BLURRED: f64 = 5e-3;
+/// Limit of `mu_error_uncertain`.
+const MU_UNCERTAIN: f64 = 5e-3;
 
 const fn most(value: f64) -> Option<Limit> {
     Some(Limit::Most(value))
@@ -92,6 +99,12 @@ impl Measure {
     pub const fn name(self) -> &'static str {
         self.definition().name
     }
+
+    /// Its name and its aliases.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        let Definition { name, aliases, .. } = self.definition();
+        std::iter::once(name).chain(aliases.iter().copied())
+    }
 }
 
 impl fmt::Display for Measure {
@@ -104,10 +117,14 @@ impl FromStr for Measure {
     type Err = String;
 
     fn from_str(name: &str) -> Result<Self, Self::Err> {
-        Self::ALL.iter().copied().find(|measure| measure.name() == name).ok_or_else(|| {
-            let names: Vec<_> = Self::ALL.iter().map(|measure| measure.name()).collect();
-            format!("there is no measure '{name}'; the measures are {}", names.join(", "))
-        })
+        Self::ALL
+            .iter()
+            .copied()
+            .find(|measure| measure.names().any(|known| known == name))
+            .ok_or_else(|| {
+                let names: Vec<_> = Self::ALL.iter().map(|measure| measure.name()).collect();
+                format!("there is no measure '{name}'; the measures are {}", names.join(", "))
+            })
     }
 }
 

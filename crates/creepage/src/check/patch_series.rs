@@ -6,13 +6,14 @@ use crate::check::surface::Surface;
 use crate::check::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch::{self, PatchShape};
 use output::summary::Mean;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Declares the measures of the patch: name, unit, meaning.
 macro_rules! patch_measures {
     ($($Measure:ident $name:literal ($units:literal, $about:literal))*) => {
         /// A measure of the patch.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize)]
         pub enum PatchMeasure {
             $(#[doc = concat!($about, " (", $units, ")")] #[serde(rename = $name)] $Measure,)*
         }

@@ -4,11 +4,11 @@
 //! with the law's own update, from the recorded slip velocity, pressure, position and time. Where every step
 //! since then is recorded, this is the law's coefficient to round-off.
 //!
-//! # Blur
+//! # Uncertainty
 //! Over steps without a record the state is not known, and four states are carried. Two bound it by an estimate:
 //! the law's update over that time at half the slower and at twice the faster of the slip speeds at both ends.
-//! The interval between their coefficients is the blur. Two assume nothing about that time: contact that has just
-//! begun, and contact that has slipped for long. Where later steps are all recorded and the law forgets, the
+//! The interval between their coefficients is the uncertainty. Two assume nothing about that time: contact that
+//! has just begun, and contact that has slipped for long. Where later steps are all recorded and the law forgets, the
 //! four states become equal, and the coefficient is known. A history that begins later than the run starts with
 //! the last two.
 
@@ -29,7 +29,7 @@ pub(crate) struct Allowed {
     pub low: f64,
     /// Largest coefficient.
     pub high: f64,
-    /// Whether the records determine the interval; else it is an estimate (the blur).
+    /// Whether the records determine the interval; else it is an estimate.
     pub known: bool,
 }
 

@@ -4,16 +4,17 @@ use crate::check::limits::{Limit, MethodKind};
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::surface::body_name;
-use output::known;
 use output::layout::Pairing;
 use output::summary;
+use output::{Aliased, by_all_names, keyed, known};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
 /// What a check found; `docs/checks.md` describes it. Numbers in SI units unless an entry says otherwise. What a file of
 /// another version lacks has its default.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CheckResult {
     /// Name of the run's case, else of its folder.
@@ -33,10 +34,12 @@ pub struct CheckResult {
     /// The kind of method that the limits are for.
     pub limits_for: MethodKind,
     /// The limit of each measure; none where it has none.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Measure, Option<Limit>>")]
     pub limits: BTreeMap<Measure, Option<Limit>>,
     /// The measures.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Measure, Metric>")]
     pub metrics: BTreeMap<Measure, Metric>,
     /// Which slip velocity a traction is paired with.
     pub pairing: PairingUsed,
@@ -50,6 +53,7 @@ pub struct CheckResult {
     pub tolerances: Tolerances,
     /// Means of the patch.
     #[serde(deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<PatchMeasure, PatchMean>")]
     pub patch: BTreeMap<PatchMeasure, PatchMean>,
     /// Slip that alternates from node to node.
     pub mesh_mode: MeshModeFound,
@@ -60,7 +64,9 @@ pub struct CheckResult {
 }
 
 /// A part of the interface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum View {
     /// The nodes of the disk with the slip velocity recorded for them.
@@ -104,7 +110,7 @@ impl fmt::Display for View {
 }
 
 /// A measure of the contact conditions over the window.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Metric {
     /// Its value; none where it could not be measured, or is infinite.
@@ -184,7 +190,7 @@ impl Metric {
 }
 
 /// Where and when a measure is worst.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Place {
     /// The part of the interface.
     pub side: View,
@@ -198,7 +204,7 @@ pub struct Place {
     pub time: f64,
     /// The value there; none where it is infinite.
     pub value: Option<f64>,
-    /// The coefficient that the algorithm used there, of `mu_error` and `mu_error_blurred`.
+    /// The coefficient that the algorithm used there, of `mu_error` and `mu_error_uncertain`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mu_used: Option<f64>,
     /// The coefficient of the law there.
@@ -207,7 +213,7 @@ pub struct Place {
 }
 
 /// The statistics of a measure on all parts of the interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Sides {
     /// Switches per node and microsecond.
@@ -222,7 +228,7 @@ pub enum Sides {
 }
 
 /// The statistics of a measure on a part of the interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum OnView {
     /// In either pairing.
@@ -232,17 +238,20 @@ pub enum OnView {
 }
 
 /// A value with further statistics.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct Statistics {
     /// The value of the measure.
     pub value: Option<f64>,
     /// Further statistics.
-    #[serde(flatten, deserialize_with = "known")]
+    #[serde(flatten, serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Detail, Option<f64>>")]
     pub more: BTreeMap<Detail, Option<f64>>,
 }
 
 /// A statistic beside the value of a measure, in the unit of the measure unless it says otherwise.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum Detail {
     /// Weighted mean.
@@ -255,8 +264,9 @@ pub enum Detail {
     P95,
     /// Largest value.
     Max,
-    /// Root mean square where the algorithm lets slip.
-    RmsWhereLetSlip,
+    /// Root mean square where the algorithm's state is slip.
+    #[serde(alias = "rms_where_let_slip")]
+    RmsSlipState,
     /// Energy exchanged in slip (J).
     Energy,
     /// Standard deviation over time of p_f/p_n (dimensionless).
@@ -274,15 +284,36 @@ pub enum Detail {
     /// That of the law there.
     MuLawWorst,
     /// Median of the relative interval in which the law's coefficient is known to lie.
-    BlurMedian,
+    #[serde(alias = "blur_median")]
+    UncertaintyMedian,
     /// Its root mean square.
-    BlurRms,
+    #[serde(alias = "blur_rms")]
+    UncertaintyRms,
     /// 95 % of it is below.
-    BlurP95,
+    #[serde(alias = "blur_p95")]
+    UncertaintyP95,
+}
+
+impl Aliased for Detail {
+    fn aliases(&self) -> &'static [&'static str] {
+        match self {
+            Self::RmsSlipState => &["rms_where_let_slip"],
+            Self::UncertaintyMedian => &["blur_median"],
+            Self::UncertaintyRms => &["blur_rms"],
+            Self::UncertaintyP95 => &["blur_p95"],
+            _ => &[],
+        }
+    }
+}
+
+impl Aliased for Measure {
+    fn aliases(&self) -> &'static [&'static str] {
+        self.definition().aliases
+    }
 }
 
 /// Which slip velocity a traction is paired with in time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PairingUsed {
     /// The pairing that the values are of.
@@ -298,7 +329,7 @@ pub struct PairingUsed {
 }
 
 /// The pairing that the values of a check are of.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, JsonSchema, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Reported {
     /// With the slip velocity of the step before.
@@ -331,7 +362,7 @@ impl From<Pairing> for Reported {
 }
 
 /// The friction law of a check.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LawUsed {
     /// Its word, of Coulomb's law and of those of the form of Eq. (8).
@@ -350,12 +381,14 @@ pub struct LawUsed {
 }
 
 /// Shares of contact area and time on which the law's coefficient is known.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LawFollowed {
     /// To round-off.
     pub known: Option<f64>,
     /// To an interval.
+    pub uncertain: Option<f64>,
+    /// The same, by another name.
     pub blurred: Option<f64>,
     /// Not at all.
     pub unknown: Option<f64>,
@@ -364,7 +397,7 @@ pub struct LawFollowed {
 }
 
 /// A scale of the measures.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ScaleUsed {
     /// Its value.
     pub value: f64,
@@ -377,7 +410,7 @@ pub struct ScaleUsed {
 }
 
 /// Tolerances of the conditions at a node.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Tolerances {
     /// Pressure over p0 above which a node is in contact.
@@ -391,7 +424,7 @@ pub struct Tolerances {
 }
 
 /// A mean of the patch over the window.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PatchMean {
     /// The mean; none where no record has a value.
@@ -412,7 +445,7 @@ pub struct PatchMean {
 }
 
 /// Slip that alternates from node to node, and where it was measured.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct MeshModeFound {
     /// What was found.
@@ -423,7 +456,7 @@ pub struct MeshModeFound {
 }
 
 /// Statistics of slip over the slip zone, or why there are none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum SlipZoneFound {
     /// Why there are none.
@@ -436,10 +469,11 @@ pub enum SlipZoneFound {
 }
 
 /// Statistics of slip over the slip zone; docs/checks.md defines them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SlipZoneMeasured {
     /// The statistics.
     #[serde(flatten, deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<SlipQuantity, SlipStatistic>")]
     pub statistics: BTreeMap<SlipQuantity, SlipStatistic>,
     /// Rear end of the zone (m).
     #[serde(default)]
@@ -450,7 +484,9 @@ pub struct SlipZoneMeasured {
 }
 
 /// A statistic of slip over the slip zone.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, JsonSchema, Serialize, Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum SlipQuantity {
     /// Mean slip speed.
@@ -490,7 +526,7 @@ impl SlipQuantity {
 }
 
 /// The value of a statistic of slip.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SlipStatistic {
     /// Its value; none where the records do not resolve it.
@@ -552,6 +588,25 @@ mod tests {
         let rms =
             result.metrics[&Measure::Penetration].detail(View::Bar, Pairing::Before, Detail::Rms);
         assert_eq!(rms, Some(2.0));
+    }
+
+    #[test]
+    fn a_measure_reads_by_its_alias_and_stands_in_the_document_by_both_names() {
+        let written = r#"{ "metrics": { "direction_let_slip": { "value": 2.5, "sides": { "bar": {
+            "before": { "value": 2.5, "blur_rms": 2.0 } } } } } }"#;
+        let result: CheckResult = serde_json::from_str(written).unwrap();
+        let metric = &result.metrics[&Measure::DirectionSlipState];
+        let rms = metric.detail(View::Bar, Pairing::Before, Detail::UncertaintyRms);
+        assert_eq!((metric.value, rms), (Some(2.5), Some(2.0)));
+        let document = serde_json::to_value(&result).unwrap();
+        let metrics = &document["metrics"];
+        assert_eq!(metrics["direction_slip_state"], metrics["direction_let_slip"]);
+        let statistics = &metrics["direction_slip_state"]["sides"]["bar"]["before"];
+        assert_eq!(
+            (&statistics["blur_rms"], &statistics["uncertainty_rms"]),
+            (&2.0.into(), &2.0.into())
+        );
+        assert_eq!(serde_json::from_value::<CheckResult>(document).unwrap(), result);
     }
 
     #[test]

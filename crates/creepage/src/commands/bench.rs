@@ -5,19 +5,22 @@ use std::path::PathBuf;
 use crate::run::{BenchResult, BlockElement, Level};
 
 #[cfg(feature = "clap")]
-use crate::commands::values::words::{element, kernels};
-use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE};
+use crate::commands::values::words::kernels;
+use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE, maybe_parsed, parsed};
 use crate::rule::{THREADS, all_cores};
 use crate::{CaseSource, Error};
+use serde::Deserialize;
 
 /// What to measure.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct BenchOptions {
     /// Number of threads, at most one per core [default: one per core]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_parser = |n: &str| THREADS.read(n)))]
     pub threads: Option<usize>,
     /// Instruction set of the element kernels [default: the best of this machine]
+    #[serde(deserialize_with = "maybe_parsed")]
     #[cfg_attr(feature = "clap", arg(long, value_name = "avx512|avx2|neon|fused|portable",
         value_parser = kernels))]
     pub kernels: Option<Level>,
@@ -29,8 +32,11 @@ pub struct BenchOptions {
         value_parser = |n: &str| EDGE.read(n)))]
     pub block: Option<usize>,
     /// Elements of the block
-    #[cfg_attr(feature = "clap", arg(long, value_name = "one-point|full", value_parser = element,
-        requires = "block", default_value = "one-point"))]
+    #[serde(deserialize_with = "parsed")]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "one-point|full", requires = "block", default_value = "one-point")
+    )]
     pub element: BlockElement,
 }
 

@@ -10,7 +10,7 @@ use crate::Error;
 use crate::commands::outputs::{claim_grid, of_the_run};
 #[cfg(feature = "clap")]
 use crate::commands::values::words::{named, window};
-use crate::commands::values::{MAP, TRANSITS, WINDOW, parsed};
+use crate::commands::values::{MAP, TRANSITS, WINDOW, maybe_parsed};
 
 /// What to check.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -32,7 +32,7 @@ pub struct CheckOptions {
     pub map: Option<PathBuf>,
     /// Pairing in time of traction and slip to report: with the slip of the step `before` or
     /// `after` it, or the `stricter` of both [default: what the file states, else stricter]
-    #[serde(deserialize_with = "parsed")]
+    #[serde(deserialize_with = "maybe_parsed")]
     #[cfg_attr(feature = "clap", arg(long, value_name = "stricter|before|after"))]
     pub pairing: Option<Report>,
     /// Prove every bit of all files of the run by the checksums in its summary, also of those that
@@ -105,7 +105,7 @@ pub fn check(options: &CheckOptions) -> Result<Checked, Error> {
         claim_grid("--map", map, &inputs)?;
     }
     let report = options.pairing.unwrap_or_default();
-    let wanted = crate::check::CheckOptions { window, limits, report, map: options.map.as_deref() };
+    let wanted = crate::check::Criteria { window, limits, report, map: options.map.as_deref() };
     Ok(crate::check::check(&paths, &mut basis, &wanted)?)
 }
 

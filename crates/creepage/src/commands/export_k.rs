@@ -4,15 +4,15 @@ use std::path::PathBuf;
 
 use crate::ls_dyna::{RollingMotion, Units, export, unsayable};
 use output::files::made::KEYWORDS;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::commands::outputs::{claim, shown};
-#[cfg(feature = "clap")]
-use crate::commands::values::words::units;
+use crate::commands::values::parsed;
 use crate::{CaseSource, Error, Listener};
 
 /// Whose keyword file, in which units, and where to write it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct ExportKOptions {
     /// The case.
@@ -22,7 +22,8 @@ pub struct ExportKOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.k"))]
     pub out: Option<PathBuf>,
     /// Units of the file: length (m, cm, mm, in), mass (kg, ton, g), time (s, ms, us)
-    #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s", value_parser = units, default_value = "mm-ton-s"))]
+    #[serde(deserialize_with = "parsed")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s", default_value = "mm-ton-s"))]
     pub unit: Units,
 }
 

@@ -5,26 +5,28 @@ use std::path::{Path, PathBuf};
 
 use crate::case::Case;
 use crate::ls_dyna::{Account, Source, Units, translate};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::commands::outputs::shown;
-#[cfg(feature = "clap")]
-use crate::commands::values::words::units;
+use crate::commands::values::parsed;
 
 const ELSEWHERE: &str = "choose another folder with --out DIR";
 
 /// The file to read, and where the case goes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct ImportKOptions {
     /// The keyword file
     #[cfg_attr(feature = "clap", arg(value_name = "FILE.k"))]
     pub file: PathBuf,
     /// Units of the file: length (m, cm, mm, in), mass (kg, ton, g), time (s, ms, us)
-    #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s", value_parser = units))]
+    #[serde(deserialize_with = "parsed")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "mm-ton-s"))]
     pub unit: Units,
     /// Read included files that lie outside the folder of FILE.k as well
+    #[serde(default)]
     #[cfg_attr(feature = "clap", arg(long))]
     pub include_outside: bool,
     /// Folder for case.toml and mesh.inp [default: the file's name without its ending]

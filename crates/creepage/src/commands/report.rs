@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::check::{CheckOptions, Depth, Limits, PostError, Report};
+use crate::check::{Criteria, Depth, Limits, PostError, Report};
 use crate::report::ListedRun;
 use crate::sweep::SweepResult;
 use crate::trends::SweepVerdict;
@@ -77,7 +77,7 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
         let page = place(&paths.folder);
         claim("--out", &page, &PAGE, &inputs(&paths))?;
-        let wanted = CheckOptions {
+        let wanted = Criteria {
             window: None,
             limits: Limits::for_enforcement(against.enforcement.as_deref()),
             report: Report::default(),

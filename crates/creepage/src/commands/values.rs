@@ -70,12 +70,21 @@ pub fn threads(asked: Option<usize>, listener: &mut dyn Listener) -> usize {
 }
 
 /// Reads a value from its text.
-pub fn parsed<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+pub fn parsed<'de, D, T>(deserializer: D) -> Result<T, D::Error>
 where
     D: Deserializer<'de>,
     T: FromStr<Err = &'static str>,
 {
-    String::deserialize(deserializer)?.parse().map(Some).map_err(D::Error::custom)
+    String::deserialize(deserializer)?.parse().map_err(D::Error::custom)
+}
+
+/// Reads a value that may be left out from its text.
+pub fn maybe_parsed<'de, D, T>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: FromStr<Err = &'static str>,
+{
+    parsed(deserializer).map(Some)
 }
 
 /// Reads values from their texts.
@@ -91,8 +100,7 @@ where
 /// Values from the words of a command line.
 #[cfg(feature = "clap")]
 pub mod words {
-    use crate::ls_dyna::Units;
-    use crate::run::{BlockElement, Level};
+    use crate::run::Level;
 
     use super::{KERNELS, WINDOW};
 
@@ -117,24 +125,8 @@ pub mod words {
 
     /// An instruction set of this machine.
     pub fn kernels(text: &str) -> Result<Level, &'static str> {
-        let level =
-            Level::named(text).ok_or("one of avx512, avx2, neon, fused, portable is needed")?;
+        let level: Level = text.parse()?;
         Some(level).filter(KERNELS.holds).ok_or(KERNELS.wanted)
-    }
-
-    /// Elements of a block.
-    pub fn element(text: &str) -> Result<BlockElement, &'static str> {
-        [BlockElement::OnePoint, BlockElement::Full]
-            .into_iter()
-            .find(|element| element.name() == text)
-            .ok_or("one of one-point, full is needed")
-    }
-
-    /// Units of a keyword file.
-    pub fn units(text: &str) -> Result<Units, &'static str> {
-        Units::parse(text).ok_or(
-            "a length (m, cm, mm, in), a mass (kg, ton, g) and a time (s, ms, us) are needed, as mm-ton-s",
-        )
     }
 }
 
@@ -145,8 +137,9 @@ mod tests {
     use crate::run::Level;
 
     use crate::{
-        BenchOptions, CheckOptions, Error, MeshOptions, PairingReport, RunOptions, SliderOptions,
-        SweepOptions,
+        BenchOptions, BlockElement, CheckOptions, Error, ExportKOptions, ImportContactOptions,
+        ImportKOptions, MeshOptions, PairingReport, RenderOptions, RunOptions, SliderOptions,
+        SweepOptions, VerifyOptions,
     };
 
     fn refused<T>(found: Result<T, Error>, said: &str) {
@@ -217,5 +210,49 @@ mod tests {
         let wrong = toml::from_str::<CheckOptions>("pairing = 'both'").unwrap_err();
         assert_eq!(wrong.message(), "one of stricter, before, after is needed");
         assert!(toml::from_str::<CheckOptions>("windows = 1").is_err());
+    }
+
+    #[test]
+    fn options_of_measurements_decks_and_tables_are_read_from_toml() {
+        let text = "kernels = 'portable'\nblock = 20\nelement = 'full'";
+        let bench: BenchOptions = toml::from_str(text).unwrap();
+        assert_eq!((bench.kernels, bench.block), (Some(Level::Portable), Some(20)));
+        assert_eq!(bench.element, BlockElement::Full);
+        let wrong = toml::from_str::<BenchOptions>("element = 'half'").unwrap_err();
+        assert_eq!(wrong.message(), "one of one-point, full is needed");
+
+        let export: ExportKOptions = toml::from_str("case.path = 'a.toml'").unwrap();
+        assert_eq!(export.unit.name(), "mm-ton-s");
+        let import: ImportKOptions = toml::from_str("file = 'a.k'\nunit = 'm-kg-s'").unwrap();
+        assert_eq!((import.unit.name().as_str(), import.include_outside), ("m-kg-s", false));
+        assert!(toml::from_str::<ImportKOptions>("file = 'a.k'").is_err(), "units are needed");
+
+        let text = "nodes = 'n.csv'\nfaces = 'f.csv'\nvalues = 'v.csv'";
+        let import: ImportContactOptions = toml::from_str(text).unwrap();
+        assert_eq!(import.out, PathBuf::from("contact.vtkhdf"));
+        assert!(toml::from_str::<ImportContactOptions>("nodes = 'n.csv'").is_err());
+    }
+
+    #[test]
+    fn options_that_another_program_takes_become_its_words() {
+        let verify: VerifyOptions = toml::from_str("names = ['hertz']\nquick = true").unwrap();
+        assert_eq!(verify.words(), ["--quick", "--", "hertz"]);
+        let render: RenderOptions = toml::from_str("run = '-r'\ntime = '-1'").unwrap();
+        assert_eq!(render.words(), ["--time=-1", "--", "-r"]);
+        let all = "run = 'r'\ntime = '1'\nfield = 'f'\nwhat = 'c'\nview = 'w'\nout = 'o'\nmagnify = '2'\nspan = '3'\n\
+                   width = '4'\nframes = '5'";
+        let words = toml::from_str::<RenderOptions>(all).unwrap().words();
+        for word in [
+            "--field=f",
+            "--what=c",
+            "--view=w",
+            "--out=o",
+            "--magnify=2",
+            "--span=3",
+            "--width=4",
+            "--frames=5",
+        ] {
+            assert!(words.iter().any(|there| there == word), "{word}: {words:?}");
+        }
     }
 }

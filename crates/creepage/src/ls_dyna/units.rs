@@ -1,5 +1,7 @@
 //! Consistent units of a keyword file, and their sizes in SI units.
 
+use std::str::FromStr;
+
 /// The units of length, mass and time, in metres, kilograms and seconds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
@@ -8,6 +10,23 @@ pub struct Units {
     time: f64,
     /// Their names in that order.
     names: [&'static str; 3],
+}
+
+impl Default for Units {
+    /// Millimetres, tons and seconds, which give newtons and megapascals.
+    fn default() -> Self {
+        Self { length: 1e-3, mass: 1e3, time: 1.0, names: ["mm", "ton", "s"] }
+    }
+}
+
+impl FromStr for Units {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        Self::parse(text).ok_or(
+            "a length (m, cm, mm, in), a mass (kg, ton, g) and a time (s, ms, us) are needed, as mm-ton-s",
+        )
+    }
 }
 
 const LENGTHS: [(&str, f64); 4] = [("mm", 1e-3), ("m", 1.0), ("cm", 1e-2), ("in", 0.0254)];

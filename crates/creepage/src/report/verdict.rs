@@ -36,7 +36,7 @@ pub(super) fn verdict(measure: Measure, metric: &Metric) -> String {
              gives for the recorded slip, pressure, place and time.",
             percent(value)
         ),
-        Measure::MuErrorBlurred => format!(
+        Measure::MuErrorUncertain => format!(
             "Where not every step is recorded, the coefficient differs by {} (median) more than the \
              missing steps can explain.",
             percent(value)
@@ -46,7 +46,7 @@ pub(super) fn verdict(measure: Measure, metric: &Metric) -> String {
              square). Motion of a node while penalty springs hold it in stick counts as slip.",
             percent(value)
         ),
-        Measure::LawErrorLetSlip => format!(
+        Measure::LawErrorSlipState => format!(
             "At nodes that the algorithm lets slip, the shear differs from the bound by {}. This is \
              the error of the friction algorithm, without the deformation of penalty springs in stick.",
             percent(value)
@@ -61,7 +61,7 @@ pub(super) fn verdict(measure: Measure, metric: &Metric) -> String {
              opposite to the slip.",
             digits(value, 3)
         ),
-        Measure::DirectionLetSlip => format!(
+        Measure::DirectionSlipState => format!(
             "At nodes that the algorithm lets slip, the shear deviates by {} degrees from the \
              direction opposite to the slip.",
             digits(value, 3)

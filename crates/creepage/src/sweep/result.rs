@@ -6,15 +6,21 @@ use std::path::Path;
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::result::{CheckResult, SlipQuantity};
-use output::known;
 use output::summary::{Mean, Status, Summary};
+use output::{by_all_names, keyed, known};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 
 /// Values of swept keys, by dotted path, as a case file has them.
 pub type Parameters = BTreeMap<String, toml::Value>;
 
+/// The schema of values of keys of a case, which are of any type.
+fn values_of_keys(_: &mut SchemaGenerator) -> Schema {
+    json_schema!({ "type": "object" })
+}
+
 /// What a sweep does.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SweepPlan {
     /// Its name.
     #[serde(default)]
@@ -41,6 +47,7 @@ pub struct SweepPlan {
     pub parameters: Vec<String>,
     /// Values of each axis.
     #[serde(default)]
+    #[schemars(schema_with = "values_of_keys")]
     pub axes: BTreeMap<String, Vec<toml::Value>>,
     /// Key of the axis of the members of an ensemble, where there is one.
     #[serde(default)]
@@ -51,7 +58,7 @@ pub struct SweepPlan {
 }
 
 /// The rule of the time step of a sweep.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct PlannedStep {
     /// `fixed` or `bound`; none where the cases give it.
@@ -61,7 +68,7 @@ pub struct PlannedStep {
 }
 
 /// `plan.json`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PlanFile {
     /// What the sweep does.
     #[serde(flatten)]
@@ -71,16 +78,17 @@ pub struct PlanFile {
 }
 
 /// A run of a plan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PlannedRun {
     /// Name of its folder and of its case.
     pub name: String,
     /// Values of the swept keys.
+    #[schemars(schema_with = "values_of_keys")]
     pub parameters: Parameters,
 }
 
 /// `sweep.json`: what the sweep does, and what its runs gave.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SweepResult {
     /// What the sweep does.
     #[serde(flatten)]
@@ -96,12 +104,13 @@ pub struct SweepResult {
 }
 
 /// A run of a sweep.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 #[serde(default)]
 pub struct SweepRun {
     /// Name of its folder and of its case.
     pub name: Option<String>,
     /// Values of the swept keys.
+    #[schemars(schema_with = "values_of_keys")]
     pub parameters: Parameters,
     /// How far it is: `completed`, `failed`, or why it is neither.
     pub status: Option<String>,
@@ -118,9 +127,10 @@ pub struct SweepRun {
 
 /// A point of a sweep with an ensemble: means over the members that completed, with half the width of the 95 %
 /// confidence intervals of these means (Student 1908).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct SweepPoint {
     /// Values of the swept keys but for that of the members.
+    #[schemars(schema_with = "values_of_keys")]
     pub parameters: Parameters,
     /// Names of its members.
     pub members: Vec<String>,
@@ -137,19 +147,20 @@ pub struct SweepPoint {
 }
 
 /// Means over the summaries of an ensemble's members.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PointSummary {
     /// Time step of the first (s): the members differ in it by no more than their disturbance.
     pub dt: Option<f64>,
     /// Means of the section `contact`.
     #[serde(deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Mean, f64>")]
     pub contact: BTreeMap<Mean, f64>,
     /// Means of the section `window`.
     pub window: PointWindow,
 }
 
 /// Means over the section `window` of an ensemble's members.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PointWindow {
     /// Half the width of the 95 % confidence intervals of all means.
     pub ci95: PointHalves,
@@ -159,11 +170,12 @@ pub struct PointWindow {
     pub to: Option<f64>,
     /// The means.
     #[serde(flatten, deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Mean, f64>")]
     pub means: BTreeMap<Mean, f64>,
 }
 
 /// Half the widths of the 95 % confidence intervals of a point's window.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PointHalves {
     /// Of its ends (s).
     pub from: Option<f64>,
@@ -171,25 +183,29 @@ pub struct PointHalves {
     pub to: Option<f64>,
     /// Of the means.
     #[serde(flatten, deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Mean, f64>")]
     pub means: BTreeMap<Mean, f64>,
 }
 
 /// Means over the checks of an ensemble's members.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct PointCheck {
     /// Of the measures.
-    #[serde(deserialize_with = "known")]
+    #[serde(serialize_with = "by_all_names", deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<Measure, MeanValue>")]
     pub metrics: BTreeMap<Measure, MeanValue>,
     /// Of the patch.
     #[serde(deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<PatchMeasure, MeanOfMeans>")]
     pub patch: BTreeMap<PatchMeasure, MeanOfMeans>,
     /// Of the slip zone.
     #[serde(deserialize_with = "known")]
+    #[schemars(schema_with = "keyed::<SlipQuantity, MeanValue>")]
     pub slip_zone: BTreeMap<SlipQuantity, MeanValue>,
 }
 
 /// A mean over the members of an ensemble.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct MeanValue {
     /// The mean.
     pub value: f64,
@@ -198,7 +214,7 @@ pub struct MeanValue {
 }
 
 /// A mean over the members of an ensemble of their means over time.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct MeanOfMeans {
     /// The mean.
     pub mean: f64,

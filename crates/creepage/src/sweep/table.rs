@@ -297,14 +297,14 @@ fn columns(sweep: &SweepResult) -> Vec<Column> {
     columns.extend(sweep.plan.parameters.iter().map(|name| parameter(name)));
     columns.push(text("status", S::Status));
     columns.extend(COLUMNS.iter().map(|(name, source)| result(name, *source)));
-    columns.extend(measures.iter().map(|&measure| {
+    columns.extend(measures.iter().flat_map(|&measure| {
         let definition = measure.definition();
-        Column {
-            name: format!("check_{measure}"),
+        measure.names().map(move |name| Column {
+            name: format!("check_{name}"),
             units: definition.units.into(),
             meaning: definition.about.into(),
             source: S::Measure(measure),
-        }
+        })
     }));
     columns.push(text("reason", S::Reason));
     let halves: Vec<Column> = columns.iter().filter_map(interval).collect();

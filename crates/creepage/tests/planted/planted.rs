@@ -1,6 +1,6 @@
 //! Runs with known content, written through `output`'s own writers.
 
-use creepage::check::{Basis, CheckOptions, Checked, Limits, PostError, Report, RunPaths, check};
+use creepage::check::{Basis, Checked, Criteria, Limits, PostError, Report, RunPaths, check};
 use output::{Cells, FieldSpec, GridSpec, Provenance, StaticField, TransientGrid, Values};
 use std::path::Path;
 
@@ -260,7 +260,7 @@ pub fn judge(folder: &Path, report: Report) -> Result<Judged, PostError> {
     let paths = RunPaths::of(folder)?;
     let mut basis = Basis::read(&paths)?;
     let limits = Limits::for_enforcement(basis.enforcement.as_deref());
-    let options = CheckOptions { window: None, limits, report, map: None };
+    let options = Criteria { window: None, limits, report, map: None };
     let checked = check(&paths, &mut basis, &options)?;
     let document = serde_json::to_value(&checked.result).unwrap();
     Ok(Judged { checked, document })

@@ -8,6 +8,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._results import CheckResult, Summary, SweepResult
+
 _Path = str | PathLike[str]
 _Case = _Path | Mapping[str, Any]
 _Floats = NDArray[np.float64]
@@ -123,7 +125,7 @@ class Run:
     @property
     def probes(self) -> History: ...
     @property
-    def summary(self) -> dict[str, Any]: ...
+    def summary(self) -> Summary: ...  # empty while the run goes on
     @property
     def case(self) -> Case: ...
     def check(
@@ -133,7 +135,7 @@ class Run:
         *,
         pairing: Literal["stricter", "before", "after"] | None = None,
         strict: bool = False,
-    ) -> dict[str, Any]: ...
+    ) -> CheckResult: ...
     def figures(
         self,
         out: _Path | None = None,
@@ -165,7 +167,7 @@ class Sweep(Sequence[Run | None]):
     columns: list[str]
     units: dict[str, str]
     meanings: dict[str, str]
-    document: dict[str, Any]
+    document: SweepResult
     def __init__(self, path: _Path) -> None: ...
     def reload(self) -> Sweep: ...
     @property
@@ -200,7 +202,7 @@ def sweep(
     resume: bool = False,
     force: bool = False,
     progress: _Progress = None,
-) -> dict[str, Any]: ...
+) -> SweepResult: ...
 def slider(**settings: Any) -> dict[str, Any]: ...
 def verify(
     *names: str,

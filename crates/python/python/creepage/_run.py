@@ -394,14 +394,13 @@ class Run:
         options["limits"] = [(name, float(value)) for name, value in (limits or {}).items()]
         document = execute(_creepage.check, options)[0]
         if strict and not document["pass"]:
-            broken = [
-                f"{name} = {metric['value']} (limit {metric['limit']})"
-                if metric["value"] is not None
-                else f"{name} ({metric.get('note', 'not known')})"
-                for name, metric in document["metrics"].items()
-                if metric.get("pass") is False
-            ]
-            raise LimitError("beyond a limit: " + ", ".join(broken), run=self)
+            broken = {}  # by their definitions, which aliases share
+            for name, metric in document["metrics"].items():
+                if metric.get("pass") is False:
+                    value, note = metric["value"], metric.get("note", "not known")
+                    text = f"{name} ({note})" if value is None else f"{name} = {value} (limit {metric['limit']})"
+                    broken.setdefault(metric["about"], text)
+            raise LimitError("beyond a limit: " + ", ".join(broken.values()), run=self)
         return document
 
     def figures(self, out=None, format=("svg", "png"), window=None) -> dict:

@@ -7,6 +7,7 @@ use dynamics::{Setup, Simulation, System};
 use mesh::Padded;
 use serde::Serialize;
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+use std::str::FromStr;
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
 /// Edge of an element (m) and time step (s).
@@ -32,6 +33,16 @@ impl BlockElement {
             Self::OnePoint => "one-point",
             Self::Full => "full",
         }
+    }
+}
+
+impl FromStr for BlockElement {
+    type Err = &'static str;
+
+    fn from_str(name: &str) -> Result<Self, Self::Err> {
+        let all = [Self::OnePoint, Self::Full];
+        let found = all.into_iter().find(|element| element.name() == name);
+        found.ok_or("one of one-point, full is needed")
     }
 }
 
