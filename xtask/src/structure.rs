@@ -1,4 +1,4 @@
-//! The crates use one another as `docs/architecture.md` draws it.
+//! The crates use one another, and packages of others, as `docs/architecture.md` says.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -8,11 +8,14 @@ use serde_json::Value;
 
 use crate::step::output;
 
-/// The document with the drawing.
+/// The document with the drawing and the table.
 const DRAWING: &str = "docs/architecture.md";
 
 /// The first line of its list.
 const LIST: &str = "```text crates";
+
+/// The first line of the table of packages of others.
+const TABLE: &str = "| package | for |";
 
 /// Packages that are no part of the program.
 const TOOLS: [&str; 3] = ["xtask", "tests", "benches"];
@@ -21,8 +24,10 @@ const TOOLS: [&str; 3] = ["xtask", "tests", "benches"];
 pub fn differences(root: &Path) -> Vec<String> {
     let text = std::fs::read_to_string(root.join(DRAWING)).unwrap_or_default();
     let list = text.lines().skip_while(|line| *line != LIST).skip(1);
-    let drawn: BTreeSet<String> =
-        list.take_while(|line| *line != "```").map(str::to_owned).collect();
+    let list = list.take_while(|line| *line != "```").map(str::to_owned);
+    let table = text.lines().skip_while(|line| *line != TABLE).skip(2);
+    let table = table.map_while(|row| Some(row.strip_prefix("| `")?.split_once('`')?.0.to_owned()));
+    let drawn: BTreeSet<String> = list.chain(table).collect();
     let built = match metadata(root) {
         Ok(metadata) => built(&metadata),
         Err(problem) => return vec![problem],
@@ -46,7 +51,8 @@ pub fn packages(root: &Path) -> Result<String, String> {
     Ok(packages.filter_map(|package| package["name"].as_str()).collect::<Vec<_>>().join(" "))
 }
 
-/// The lines of the packages as Cargo has them, `crate: those that it uses`, without what tests alone use.
+/// The lines of the packages as Cargo has them, `crate: those that it uses`, and the names of the others that
+/// they use; without what tests alone use.
 fn built(metadata: &Value) -> BTreeSet<String> {
     let packages = metadata["packages"].as_array().into_iter().flatten();
     let name = |package: &Value| {
@@ -54,13 +60,15 @@ fn built(metadata: &Value) -> BTreeSet<String> {
         name.strip_prefix("creepage-").unwrap_or(name).to_owned()
     };
     let ours: BTreeSet<String> = packages.clone().map(name).collect();
-    let line = |package: &Value| {
+    let mut built = BTreeSet::new();
+    for package in packages.filter(|package| !TOOLS.contains(&&*name(package))) {
         let all = package["dependencies"].as_array().into_iter().flatten();
         let used: BTreeSet<String> = all.filter(|used| used["kind"].is_null()).map(name).collect();
-        let used = used.intersection(&ours).map(|used| format!(" {used}"));
-        format!("{}:{}", name(package), used.collect::<String>())
-    };
-    packages.filter(|package| !TOOLS.contains(&&*name(package))).map(line).collect()
+        let own = used.intersection(&ours).map(|used| format!(" {used}"));
+        built.insert(format!("{}:{}", name(package), own.collect::<String>()));
+        built.extend(used.difference(&ours).cloned());
+    }
+    built
 }
 
 #[cfg(test)]
@@ -68,7 +76,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_crate_is_drawn_with_those_of_ours_that_it_uses_besides_its_tests() {
+    fn a_crate_is_drawn_with_those_that_it_uses_besides_its_tests() {
         let metadata = serde_json::json!({ "packages": [
             { "name": "creepage-mesh", "dependencies": [] },
             { "name": "creepage-solid", "dependencies": [
@@ -78,6 +86,7 @@ mod tests {
             ] },
             { "name": "creepage-tests", "dependencies": [] },
         ] });
-        assert_eq!(built(&metadata), ["mesh:", "solid: mesh"].map(str::to_owned).into());
+        let wanted = ["mesh:", "solid: mesh", "serde"].map(str::to_owned);
+        assert_eq!(built(&metadata), wanted.into());
     }
 }

@@ -22,8 +22,7 @@
 use crate::face::Positions;
 use crate::surface::{ContactSurface, NONE};
 use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use mesh::BoxTree;
 use serde::{Deserialize, Serialize};
 
 /// Margin in terms of the smallest face: small, for few open points; large enough that a rolling
@@ -183,9 +182,11 @@ impl Search {
             spans.iter().map(|s| distance(s, &whole[1 - side]).max(far)).collect::<Vec<f64>>()
         });
         let reach = self.reach(&whole, far);
-        let tree = tree_of(reach[1].iter().map(|&g| (g, self.spans[1][g as usize])));
+        let tree = BoxTree::new(reach[1].iter().map(|&g| self.spans[1][g as usize]));
+        let mut near = Vec::new();
         for &f in &reach[0] {
-            for g in near(&tree, self.spans[0][f as usize], far) {
+            tree.near(self.spans[0][f as usize], far, &mut near);
+            for g in near.iter().map(|&g| reach[1][g as usize]) {
                 let d = distance(&self.spans[0][f as usize], &self.spans[1][g as usize]);
                 for (side, face) in [(0, f), (1, g)] {
                     let c = &mut clearance[side][face as usize];
@@ -303,29 +304,8 @@ fn distance(a: &Span, b: &Span) -> f64 {
     squared.sqrt()
 }
 
-/// The boxes of faces, with the number of each.
-type Tree = RTree<GeomWithData<Rectangle<Vec3>, u32>>;
-
-/// The tree of the boxes, but for [`NOTHING`].
-fn tree_of(spans: impl Iterator<Item = (u32, Span)>) -> Tree {
-    let there = spans.filter(|(_, [low, high])| low[0] <= high[0]);
-    RTree::bulk_load(
-        there
-            .map(|(face, [low, high])| GeomWithData::new(Rectangle::from_corners(low, high), face))
-            .collect(),
-    )
-}
-
-/// The faces of `tree` whose boxes lie within `reach` of `span` along each axis, in no particular order; none of [`NOTHING`].
-fn near(tree: &Tree, span: Span, reach: f64) -> impl Iterator<Item = u32> {
-    let [low, high] = span;
-    let about = AABB::from_corners(low.map(|x| x - reach), high.map(|x| x + reach));
-    let found = (low[0] <= high[0]).then(|| tree.locate_in_envelope_intersecting(about));
-    found.into_iter().flatten().map(|face| face.data)
-}
-
 /// Calls `visit` for all faces `f` of side 0 and `g` of side 1 whose boxes in the configuration
-/// `positions` lie within `sizes` face sizes of one another, in no particular order.
+/// `positions` lie within `sizes` face sizes of one another.
 pub(crate) fn neighbours(
     sides: &[ContactSurface; 2],
     positions: &Positions<'_>,
@@ -336,10 +316,10 @@ pub(crate) fn neighbours(
         let at: Vec<Vec3> = sides[side].nodes().map(|n| positions.at(n)).collect();
         (0..sides[side].faces.len()).map(|f| span(&sides[side], f, &at)).collect::<Vec<Span>>()
     });
-    let tree = tree_of((0..).zip(spans[1].iter().copied()));
-    for (f, s) in spans[0].iter().enumerate() {
-        for g in near(&tree, *s, sizes * sides[0].faces[f].size) {
-            visit(f, g as usize);
-        }
+    let tree = BoxTree::new(spans[1].iter().copied());
+    let mut near = Vec::new();
+    for (f, &span) in spans[0].iter().enumerate() {
+        tree.near(span, sizes * sides[0].faces[f].size, &mut near);
+        near.iter().for_each(|&g| visit(f, g as usize));
     }
 }

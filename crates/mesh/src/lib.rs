@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod bar;
+mod box_tree;
 mod check;
 mod disk;
 mod error;
@@ -31,6 +32,7 @@ mod transfer;
 mod zone;
 
 pub use bar::{Bar, bar};
+pub use box_tree::BoxTree;
 pub use check::check;
 pub use disk::{Disk, disk};
 pub use error::{Allowed, MAX_ELEMENTS, MeshError, Parameter};

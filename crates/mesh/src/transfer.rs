@@ -5,9 +5,7 @@
 //! their place and of its neighbours (moving least squares, Lancaster and Salkauskas 1981). Trilinear interpolation would
 //! flatten a field of positive curvature at every move, as if a force acted.
 
-use crate::{Body, HEX_CORNERS, Mesh, Padded};
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
+use crate::{Body, BoxTree, HEX_CORNERS, Mesh, Padded};
 use std::f64::consts::PI;
 
 /// Two places closer than this, over the shortest distance that matters, are one.
@@ -107,10 +105,8 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
         .map(|hex| unwrapped(hex.map(|n| at[(n - first) as usize]), chart))
         .collect();
     let slack = COINCIDENT * size;
-    let boxes = (0..).zip(&elements).map(|(element, corners)| {
-        GeomWithData::new(Rectangle::from(around(corners, slack)), element)
-    });
-    let tree = RTree::bulk_load(boxes.collect());
+    let tree = BoxTree::new(elements.iter().map(|corners| around(corners, slack)));
+    let mut near = Vec::new();
     let around_element = Neighbours::new(mesh, body);
     let end = at.iter().fold(f64::NEG_INFINITY, |end, q| end.max(q[0]));
     let source = |q: &[f64; 3]| {
@@ -122,11 +118,8 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
         let mut best: Option<(f64, u32, [f64; 3])> = None;
         for place in places {
             // a place may lie beyond a curved side by the sag of an edge
-            let about = around(&[place], 0.5 * size);
-            let found = tree.locate_in_envelope_intersecting(about);
-            let mut near: Vec<u32> = found.map(|element| element.data).collect();
-            near.sort_unstable();
-            for element in near {
+            tree.near([place, place], 0.5 * size, &mut near);
+            for &element in &near {
                 let corners = &elements[element as usize];
                 let hex = mesh.hexes[body.hexes.start + element as usize];
                 if let Some(corner) = corners.iter().position(|&c| distance(c, place) < slack) {
@@ -303,7 +296,7 @@ fn unwrapped(mut corners: [[f64; 3]; 8], chart: Chart) -> [[f64; 3]; 8] {
     corners
 }
 
-fn around(points: &[[f64; 3]], slack: f64) -> AABB<[f64; 3]> {
+fn around(points: &[[f64; 3]], slack: f64) -> [[f64; 3]; 2] {
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     for p in points {
         for i in 0..3 {
@@ -311,7 +304,7 @@ fn around(points: &[[f64; 3]], slack: f64) -> AABB<[f64; 3]> {
             high[i] = high[i].max(p[i] + slack);
         }
     }
-    AABB::from_corners(low, high)
+    [low, high]
 }
 
 fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
