@@ -116,7 +116,7 @@ pub mod trends;
 pub use ::slider::tables::{TableRow, Tables};
 pub use ::slider::{Method, Outcome, Parameters, Threshold, Thresholds, penalty_stable_step};
 pub use case::CaseSource;
-pub use case::json_schema::json_schema as schema;
+pub use case::json_schema as schema;
 pub use chart::Format;
 pub use check::{
     CheckResult, Checked, ImportContactOptions, Measure, Pairing, Report as PairingReport,

@@ -24,7 +24,9 @@ mod summary;
 mod tests;
 mod text_file;
 
-pub use bench::{BenchResult, BlockBench, BlockElement, ReferenceBench, bench, bench_block};
+pub use bench::{
+    BenchResult, BlockBench, BlockElement, ReferenceBench, bench, bench_block, reference,
+};
 pub use disk::DiskEstimate;
 pub use error::RunError;
 pub use execute::run;

@@ -1,14 +1,14 @@
 //! The keys of the two bodies and of their mesh.
 
+use crate::case::form::Form::{Number, Text};
+use crate::case::form::within;
 use crate::case::forms::Crown;
-use crate::case::key::Form::{Number, Text};
-use crate::case::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, within, word};
-use crate::case::section::section;
-use crate::case::words::words;
+use crate::case::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, word};
+use crate::case::section::{is_default, section, words};
 
 section! {
     /// The disk: an annulus with a rigid hub, rolling in +x.
-    optional Disk ["disk."] {
+    optional Disk {
         /// Rolling radius (m). Default 0.46.
         radius: f64 = 0.46 => LENGTH;
         /// Radius of the rigid hub (m). Default 0.10.
@@ -23,7 +23,7 @@ section! {
             => key(Number(within(0.0, 0.1)), "m", "leave it out: the disk then touches the bar at the start")
                 .finite_elements_only();
         /// Material keys in which the disk differs from `[material]`. Default: none.
-        #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
+        #[serde(skip_serializing_if = "is_default")]
         material: MaterialOverride;
     }
 }
@@ -42,7 +42,7 @@ impl Disk {
 
 section! {
     /// The bar: clamped at its bottom, its top's apex at z = 0.
-    optional Bar ["bar."] {
+    optional Bar {
         /// Length in x (m). Default 0.24.
         length: f64 = 0.24 => LENGTH.finite_elements_only();
         /// Width in y (m). Default 0.06.
@@ -58,7 +58,7 @@ section! {
         /// `"quiet"` (Lysmer's viscous boundary, waves leave) or `"free"` ends. Default `"quiet"`.
         ends: Ends = Ends::Quiet => word(Ends::WORDS).finite_elements_only();
         /// Material keys in which the bar differs from `[material]`. Default: none.
-        #[serde(skip_serializing_if = "MaterialOverride::is_empty")]
+        #[serde(skip_serializing_if = "is_default")]
         material: MaterialOverride;
     }
 }
@@ -90,7 +90,7 @@ words! {
 section! {
     /// An isotropic elastic material.
     #[derive(Copy)]
-    optional Material ["material."] {
+    optional Material {
         /// Young's modulus (Pa). Default 210e9.
         young: f64 = 210e9 => YOUNG;
         /// Poisson's ratio (dimensionless). Default 0.3.
@@ -112,7 +112,7 @@ impl Material {
 section! {
     /// Those keys of a [`Material`] in which one body differs.
     #[derive(Copy)]
-    optional MaterialOverride ["disk.material.", "bar.material."] {
+    optional MaterialOverride {
         /// Young's modulus of this body (Pa). Default: `material.young`.
         young: Option<f64> => YOUNG;
         /// Poisson's ratio of this body (dimensionless). Default: `material.poisson`.
@@ -123,10 +123,6 @@ section! {
 }
 
 impl MaterialOverride {
-    fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// These keys over those of `[material]`.
     pub fn over(&self, common: Material) -> Material {
         Material {
@@ -139,7 +135,7 @@ impl MaterialOverride {
 
 section! {
     /// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere; or a file.
-    optional Meshing ["mesh."] {
+    optional Meshing {
         /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp`, `.vtu`, or `.vtkhdf`. `[disk]`,
         /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
         /// and `zone.depth` are without meaning. Default: the mesh is generated.
@@ -157,7 +153,7 @@ section! {
             => word(LengthUnit::WORDS).only_with("mesh.file", &[])
                 .finite_elements_only();
         /// Names of the sets in the file.
-        #[serde(skip_serializing_if = "MeshSets::is_empty")]
+        #[serde(skip_serializing_if = "is_default")]
         sets: MeshSets;
         /// Ratio of neighbouring element sizes outside the fine zone (dimensionless). Default 1.35.
         growth: f64 = 1.35
@@ -284,7 +280,7 @@ words! {
 section! {
     /// Names of the sets in a mesh file.
     #[derive(Eq)]
-    optional MeshSets ["mesh.sets."] {
+    optional MeshSets {
         /// The disk's elements. Default with `mesh.file`: `"disk"`.
         disk: Option<String> => SET.finite_elements_only();
         /// The bar's elements. Default with `mesh.file`: `"bar"`.
@@ -300,15 +296,9 @@ section! {
     }
 }
 
-impl MeshSets {
-    fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 section! {
     /// The fine zone of both bodies.
-    optional Zone ["mesh.zone."] {
+    optional Zone {
         /// Element size in the fine zone (m); the one key that refines everything. Default 1e-3.
         size: f64 = 1e-3
             => key(Number(within(1e-9, 0.1)), "m", "give the element size in metres: 1e-3 for 1 mm");

@@ -1,15 +1,17 @@
 //! Values that a case file may write in more than one form.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
-pub use contact::Stiffness;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Deserialize, Deserializer, Error};
-use serde::ser::{Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 use toml::Value;
 
+use crate::case::value::{float, points};
+
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Value", into = "Value")]
 pub enum Crown {
     /// Straight across.
     Flat,
@@ -35,22 +37,20 @@ impl Crown {
     }
 }
 
-impl Serialize for Crown {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::Flat => serializer.serialize_str("flat"),
-            Self::Radius(radius) => serializer.serialize_f64(*radius),
-        }
+impl From<Crown> for Value {
+    fn from(crown: Crown) -> Self {
+        crown.radius().map_or_else(|| "flat".into(), Self::from)
     }
 }
 
-impl<'de> Deserialize<'de> for Crown {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        match Value::deserialize(deserializer)? {
-            Value::String(word) if word == "flat" => Ok(Self::Flat),
-            value => float(&value)
-                .map(Self::Radius)
-                .ok_or_else(|| D::Error::custom("expected a radius in metres or \"flat\"")),
+impl TryFrom<Value> for Crown {
+    type Error = &'static str;
+
+    fn try_from(value: Value) -> Result<Self, &'static str> {
+        match (float(&value), value.as_str()) {
+            (Some(radius), _) => Ok(Self::Radius(radius)),
+            (None, Some("flat")) => Ok(Self::Flat),
+            _ => Err("expected a radius in metres or \"flat\""),
         }
     }
 }
@@ -65,23 +65,79 @@ impl JsonSchema for Crown {
     }
 }
 
-/// The number that a value holds, written as a float or as an integer; none for any other value.
-pub fn float(value: &Value) -> Option<f64> {
-    match value {
-        Value::Float(x) => Some(*x),
-        Value::Integer(n) => Some(*n as f64),
-        _ => None,
+/// The creepage that drives a disk.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Value", into = "Value")]
+pub enum Creepage {
+    /// The same all the time, once it has risen over `drive.ramp`.
+    Number(f64),
+    /// Points (s of rolling, creepage), the first at 0 and each later than the one before: linear between them, constant
+    /// after the last.
+    Table(Arc<[[f64; 2]]>),
+}
+
+impl Creepage {
+    /// Its largest size.
+    pub fn largest(&self) -> f64 {
+        match self {
+            Self::Number(creepage) => creepage.abs(),
+            Self::Table(points) => points.iter().fold(0.0, |most, [_, x]| most.max(x.abs())),
+        }
+    }
+
+    /// The number, if it is one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Self::Number(creepage) => Some(*creepage),
+            Self::Table(_) => None,
+        }
+    }
+
+    /// Whether it is a table with a change after the time `time` (s).
+    pub(crate) fn changes_after(&self, time: f64) -> bool {
+        match self {
+            Self::Number(_) => false,
+            Self::Table(points) => {
+                points.windows(2).any(|pair| pair[1][0] > time && pair[1][1] != pair[0][1])
+            }
+        }
     }
 }
 
-/// The number that a value holds, if it is whole and at least 0, written as an integer or as a float such as `1e2`; none
-/// for any other value.
-pub fn whole(value: &Value) -> Option<u64> {
-    /// Every whole number up to this is a float.
-    const LARGEST: f64 = 9_007_199_254_740_992.0;
-    match value {
-        Value::Integer(n) => u64::try_from(*n).ok(),
-        Value::Float(x) if x.fract() == 0.0 && (0.0..=LARGEST).contains(x) => Some(*x as u64),
-        _ => None,
+impl From<Creepage> for Value {
+    fn from(creepage: Creepage) -> Self {
+        match creepage {
+            Creepage::Number(creepage) => creepage.into(),
+            Creepage::Table(points) => {
+                Self::Array(points.iter().map(|point| point.to_vec().into()).collect())
+            }
+        }
+    }
+}
+
+impl TryFrom<Value> for Creepage {
+    type Error = &'static str;
+
+    fn try_from(value: Value) -> Result<Self, &'static str> {
+        match (float(&value), points(&value)) {
+            (Some(creepage), _) => Ok(Self::Number(creepage)),
+            (None, Some(points)) => Ok(Self::Table(points.into())),
+            _ => Err("expected a number or pairs [time, creepage]"),
+        }
+    }
+}
+
+impl JsonSchema for Creepage {
+    fn schema_name() -> Cow<'static, str> {
+        "Creepage".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let pair = json_schema!({
+            "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
+        });
+        json_schema!({
+            "oneOf": [{ "type": "number" }, { "type": "array", "items": pair, "minItems": 2 }]
+        })
     }
 }

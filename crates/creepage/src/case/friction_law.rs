@@ -1,55 +1,70 @@
 //! The friction law of a case.
 
+use crate::case::form::Form::{self, Curve, Text};
+use crate::case::form::within;
 use crate::case::hertz::hertz;
-use crate::case::key::Form::{Curve, Number, Text};
-use crate::case::key::{Key, key, within, word};
+use crate::case::key::{Key, key, word};
 use crate::case::schema::Case;
-use crate::case::section::rows;
-use friction::{Domain, Expression, LAWS, LawError, NUMBERS, NodeFriction, OwnLaw};
-use std::sync::Arc;
-
-rows! {
-    /// The keys of `[friction]` that are no numbers.
-    "friction.state" => word(&["ageing", "slip"]);
-    "friction.table"
-        => key(Curve(within(0.0, 1e4), within(0.0, 100.0)), "",
-            "give the path of a CSV file, relative to this one, or pairs of slip velocity (m/s), rising from 0, \
-         and coefficient: `table = [[0, 0.5], [1, 0.32]]`");
-    "friction.expression"
-        => key(Text, "", "give a formula in s, p, t and x in quotes: `expression = \"0.32 + 0.18*exp(-6*s)\"`");
-    "friction.source" => key(Text, "", "give the source of the function in quotes");
-    "friction.mode" => word(&["lagged", "exact"]);
-    "friction.memory.distance"
-        => key(Number(within(1e-12, 1.0)), "m",
-            "give the slip over which friction adapts, in metres: 10e-6 for 10 micrometres");
-    "friction.memory.floor"
-        => key(Number(within(1e-12, 100.0)), "m/s", "give the slip speed below which friction adapts in time: 10e-3");
-}
-
-/// The key of the law and those of its numbers, which the crate `friction` declares.
-pub(crate) const LAW: &[Key] = &{
-    let mut rows = [Key { path: "friction.law", ..word(&WORDS) }; NUMBERS.len() + 1];
-    let mut i = 0;
-    while i < NUMBERS.len() {
-        let [low, high] = NUMBERS[i].range;
-        let row = key(Number(within(low, high)), NUMBERS[i].unit, NUMBERS[i].remedy);
-        let needed = NUMBERS[i].is_needed_by_default();
-        i += 1;
-        rows[i] = Key { path: NUMBERS[i - 1].path, needed, ..row };
-    }
-    rows
+use crate::case::section::Section;
+use friction::{
+    Domain, Expression, LAWS, LawError, NUMBERS, NodeFriction, Number, OwnLaw, Parameters,
 };
+use std::sync::{Arc, LazyLock};
 
 /// The words of `friction.law`.
-const WORDS: [&str; LAWS.len()] = {
-    let mut words = [""; LAWS.len()];
-    let mut law = 0;
-    while law < words.len() {
-        words[law] = LAWS[law].word;
-        law += 1;
+static WORDS: LazyLock<Vec<&str>> = LazyLock::new(|| LAWS.iter().map(|law| law.word).collect());
+
+/// The key of the law, those of its numbers, which the crate `friction` declares, and those that are no numbers.
+impl Section for Parameters {
+    fn keys(_: &str) -> Vec<Key> {
+        let number = |number: &Number| {
+            let [low, high] = number.range;
+            let row = key(Form::Number(within(low, high)), number.unit, number.remedy);
+            (number.key(), Key { needed: number.is_needed_by_default(), ..row })
+        };
+        let others = [
+            ("state", word(&["ageing", "slip"])),
+            (
+                "table",
+                key(
+                    Curve(within(0.0, 1e4), within(0.0, 100.0)),
+                    "",
+                    "give the path of a CSV file, relative to this one, or pairs of slip velocity (m/s), rising from 0, \
+                     and coefficient: `table = [[0, 0.5], [1, 0.32]]`",
+                ),
+            ),
+            (
+                "expression",
+                key(
+                    Text,
+                    "",
+                    "give a formula in s, p, t and x in quotes: `expression = \"0.32 + 0.18*exp(-6*s)\"`",
+                ),
+            ),
+            ("source", key(Text, "", "give the source of the function in quotes")),
+            ("mode", word(&["lagged", "exact"])),
+            (
+                "memory.distance",
+                key(
+                    Form::Number(within(1e-12, 1.0)),
+                    "m",
+                    "give the slip over which friction adapts, in metres: 10e-6 for 10 micrometres",
+                ),
+            ),
+            (
+                "memory.floor",
+                key(
+                    Form::Number(within(1e-12, 100.0)),
+                    "m/s",
+                    "give the slip speed below which friction adapts in time: 10e-3",
+                ),
+            ),
+        ];
+        let law = [("law", word(&WORDS))];
+        let rows = law.into_iter().chain(NUMBERS.iter().map(number)).chain(others);
+        rows.map(|(name, row)| row.at(path(name))).collect()
     }
-    words
-};
+}
 
 /// Dotted path of a key of `[friction]`.
 pub fn path(key: &str) -> String {

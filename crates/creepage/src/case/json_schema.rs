@@ -3,7 +3,8 @@
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value, json};
 
-use crate::case::key::{Form, Key, Range, STIFFNESS};
+use crate::case::form::{Form, Range, STIFFNESS};
+use crate::case::key::Key;
 use crate::case::keys::KEYS;
 use crate::case::schema::Case;
 use friction::LAWS;
@@ -12,7 +13,8 @@ use friction::LAWS;
 pub fn json_schema() -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
     let mut schema = settings.into_generator().into_root_schema_for::<Case>().to_value();
-    for key in KEYS {
+    drop_nulls(&mut schema);
+    for key in KEYS.iter() {
         if let Some(at) = locate(&mut schema, key.path) {
             annotate(at, key);
         }
@@ -22,6 +24,18 @@ pub fn json_schema() -> Value {
         top.insert("title".into(), json!("Creepage case"));
     }
     schema
+}
+
+/// Removes the defaults of keys that are left out: TOML has no null.
+fn drop_nulls(schema: &mut Value) {
+    match schema {
+        Value::Object(map) => {
+            map.retain(|_, value| !value.is_null());
+            map.values_mut().for_each(drop_nulls);
+        }
+        Value::Array(items) => items.iter_mut().for_each(drop_nulls),
+        _ => {}
+    }
 }
 
 /// The schema of one key, by its path in the table of keys.
@@ -37,16 +51,13 @@ fn locate<'a>(schema: &'a mut Value, path: &str) -> Option<&'a mut Map<String, V
 }
 
 fn annotate(schema: &mut Map<String, Value>, key: &Key) {
-    // TOML has no null: an optional key is left out.
+    // an optional key is left out
     if let Some(Value::Array(types)) = schema.get("type") {
         let kept = types.iter().find(|name| *name != "null").cloned();
         schema.insert("type".into(), kept.unwrap_or(Value::Null));
     }
     if let Some(Value::Array(choices)) = schema.get_mut("anyOf") {
         choices.retain(|choice| choice.get("type") != Some(&json!("null")));
-    }
-    if schema.get("default") == Some(&Value::Null) {
-        schema.remove("default");
     }
     if !key.unit.is_empty() {
         schema.insert("x-unit".into(), json!(key.unit));
@@ -66,7 +77,7 @@ fn annotate(schema: &mut Map<String, Value>, key: &Key) {
         _ => {}
     }
     let said = schema.get("description").and_then(Value::as_str).unwrap_or_default();
-    let mut description = format!("{said}\nAllowed: {}.", key.form.allowed(key.unit));
+    let mut description = format!("{said}\nAllowed: {}.", key.allowed());
     if let Some(model) = key.model {
         description += &format!("\nOnly with model = \"{}\".", model.word());
     }

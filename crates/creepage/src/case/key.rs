@@ -1,66 +1,10 @@
 //! A key of a case file: what it may hold, its unit, and what to do where its value is refused.
 
-use crate::case::forms::whole;
-use crate::case::model::BodyModel;
-use std::fmt;
 use toml::Value;
 
-/// A range of numbers, both ends included. Its ends are finite, and above zero where zero has no meaning: a number that is
-/// merely above zero may be too small to be reckoned with.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    /// Lower end.
-    pub low: f64,
-    /// Upper end.
-    pub high: f64,
-    /// Whether zero is allowed below the lower end, and stands for none.
-    pub or_zero: bool,
-}
-
-impl Range {
-    /// Whether `x` lies in the range; NaN lies in none.
-    pub fn holds(&self, x: f64) -> bool {
-        (self.low..=self.high).contains(&x) || (self.or_zero && x == 0.0)
-    }
-}
-
-impl fmt::Display for Range {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "at least {} and at most {}", number(self.low), number(self.high))
-    }
-}
-
-/// A number as a person would write it.
-pub fn number(x: f64) -> String {
-    let size = x.abs();
-    if size != 0.0 && !(1e-3..1e6).contains(&size) { format!("{x:e}") } else { format!("{x}") }
-}
-
-/// What kind of value a key holds.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Form {
-    /// A number in a range.
-    Number(Range),
-    /// A whole number from the first to the second.
-    Count(u64, u64),
-    /// `true` or `false`.
-    Flag,
-    /// One of these words.
-    Word(&'static [&'static str]),
-    /// Any text.
-    Text,
-    /// `"flat"` or a radius in the range.
-    Crown(Range),
-    /// A penalty stiffness in one of its three forms.
-    Stiffness,
-    /// A number in the range, or a list of pairs of a time and such a number.
-    OverTime(Range),
-    /// A list of pairs of numbers in the range.
-    Points(Range),
-    /// A curve: pairs of numbers in the first and in the second range, the first of them rising from 0. In a file it may
-    /// be the path of another file.
-    Curve(Range, Range),
-}
+use crate::case::form::{Form, Range, within};
+use crate::case::schema::BodyModel;
+use crate::case::value::whole;
 
 /// What a number usually is, and the other units in which people think of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +41,11 @@ pub struct Key {
 }
 
 impl Key {
+    /// The key at a path. The table of keys is made once, and its paths are kept as long as the program runs.
+    pub(crate) fn at(self, path: String) -> Self {
+        Self { path: path.leak(), ..self }
+    }
+
     /// The key, used only where `other` is one of `words`; without words, where `other` is given.
     pub(crate) const fn only_with(
         self,
@@ -131,12 +80,22 @@ impl Key {
         Self { usual: Some(Usual { range, also_in }), ..self }
     }
 
-    /// A value that is allowed for the key, as the case holds it: a whole number is an integer also where it was written
-    /// as `1e2`.
-    pub fn held(&self, value: &Value) -> Value {
-        let count = matches!(self.form, Form::Count(..));
-        let integer = whole(value).filter(|_| count).and_then(|n| i64::try_from(n).ok());
-        integer.map_or_else(|| value.clone(), Value::Integer)
+    /// What it allows, as a noun phrase.
+    pub fn allowed(&self) -> String {
+        self.form.allowed(self.unit)
+    }
+
+    /// Why a value is not allowed, if it is not: the value, then what is allowed.
+    pub fn mistake(&self, value: &Value) -> Option<String> {
+        self.form.mistake(self.unit, value)
+    }
+
+    /// Turns a value that is allowed for the key into the one that the case holds: a whole number is an integer also where
+    /// it was written as `1e2`.
+    pub(crate) fn hold(&self, value: &mut Value) {
+        if let (Form::Count(..), Some(Ok(n))) = (self.form, whole(value).map(i64::try_from)) {
+            *value = Value::Integer(n);
+        }
     }
 
     /// Whether it has meaning for a model.
@@ -154,21 +113,6 @@ impl Key {
 pub(crate) const OF_A_HUNDRED: &[(&str, f64)] = &[("per cent", 1e-2), ("per mille", 1e-3)];
 /// Other units of a speed in m/s.
 pub(crate) const OF_SPEED: &[(&str, f64)] = &[("km/h", 1.0 / 3.6)];
-
-/// The three forms of a penalty stiffness: name (empty for the plain number), range, unit.
-pub const STIFFNESS: [(&str, Range, &str); 3] = [
-    ("", within(1e-4, 100.0), "-"),
-    ("stiffness", within(1.0, 1e18), "N/m^3"),
-    ("stability", within(1e-4, 2.0), "-"),
-];
-
-pub(crate) const fn within(low: f64, high: f64) -> Range {
-    Range { low, high, or_zero: false }
-}
-
-pub(crate) const fn none_or_within(low: f64, high: f64) -> Range {
-    Range { or_zero: true, ..within(low, high) }
-}
 
 /// A row of the table of keys, without its path.
 pub(crate) const fn key(form: Form, unit: &'static str, remedy: &'static str) -> Key {
@@ -192,10 +136,10 @@ pub(crate) const fn needed(form: Form, unit: &'static str, remedy: &'static str)
 
 /// The same, of a key that must be one of `words`.
 pub(crate) const fn word(words: &'static [&'static str]) -> Key {
-    key(Word(words), "", "choose one of the words")
+    key(Form::Word(words), "", "choose one of the words")
 }
 
-use Form::{Crown, Flag, Number, Stiffness, Text, Word};
+use Form::{Crown, Flag, Number, Stiffness, Text};
 
 pub(crate) const FLAG: Key = key(Flag, "", "give true or false, without quotes");
 pub(crate) const LENGTH: Key =

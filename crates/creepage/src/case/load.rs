@@ -1,26 +1,56 @@
-//! From files and options to a resolved case.
+//! From files and options to a resolved case, and to its text.
 
 use std::path::{Path, PathBuf};
 
+use output::hexadecimal;
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
+use toml::Table;
 
-use crate::case::check;
-use crate::case::creepage;
 use crate::case::error::CaseError;
-use crate::case::keys;
-use crate::case::layers::{Layers, get, join};
-use crate::case::left_out::{keep_meaningful, leave_out};
-use crate::case::mesh_file;
-use crate::case::name;
-use crate::case::schema::{
-    BodyModel, Case, Checkpoint, ContactLayers, DriveMode, Enforcement, Guards, Meshing,
-};
-use crate::case::table;
+use crate::case::layers::Layers;
+use crate::case::left_out::{drop_ramp, keep_meaningful, leave_out};
+use crate::case::schema::{BodyModel, Case, Checkpoint, DriveMode, Guards, Meshing};
 use crate::case::units::with_units;
-use crate::case::validation;
-use output::hexadecimal;
-use toml::{Table, Value};
+use crate::case::value::get;
+use crate::case::written::Written;
+use crate::case::{check, mesh_file, name, table, validation};
+
+/// A case: a file, and what is laid over it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+#[cfg_attr(feature = "clap", derive(clap::Args))]
+pub struct CaseSource {
+    /// The case file
+    #[cfg_attr(feature = "clap", arg(value_name = "CASE.toml"))]
+    pub path: PathBuf,
+    /// Set a key of the case, for example mesh.zone.size=2e-3; may be repeated
+    #[cfg_attr(feature = "clap", arg(long = "set", value_name = "KEY=VALUE"))]
+    pub sets: Vec<String>,
+    /// The text of the case, where it is not in a file; `path` then only names it.
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub text: Option<String>,
+}
+
+impl<P: AsRef<Path>> From<P> for CaseSource {
+    /// The case of a file, as it is.
+    fn from(path: P) -> Self {
+        Self { path: path.as_ref().to_owned(), ..Self::default() }
+    }
+}
+
+impl CaseSource {
+    /// Reads and checks the case.
+    ///
+    /// # Errors
+    /// What is wrong with the case, with the place where it is written.
+    pub fn read(&self) -> Result<Case, CaseError> {
+        match &self.text {
+            Some(text) => Case::from_text(text, &self.path, &self.sets),
+            None => Case::load(&self.path, &self.sets),
+        }
+    }
+}
 
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
@@ -85,136 +115,33 @@ impl Case {
     }
 }
 
-/// The files that a case is made of: its own, those that it extends, its friction table and its mesh. `source` is
-/// the path that the case was read from, or the name of a text that is no file. A friction table that an option
-/// names is not among them.
-pub fn inputs(case: &Case, source: &Path) -> Vec<PathBuf> {
-    let mut files = vec![source.to_path_buf()];
-    files.extend(Layers::read(source).map(|layers| layers.files()).unwrap_or_default());
-    files.extend(case.mesh.file.as_ref().map(PathBuf::from));
-    files
-}
-
-/// An error about a key that was found after loading, at the place where the key was written. `path`, `text` and
-/// `sets` are those of the case; `text` is none where the case was read from the file `path`.
-pub fn error_at_key(
-    path: &Path,
-    text: Option<&str>,
-    sets: &[String],
-    key: &str,
-    message: &str,
-    remedy: &str,
-) -> CaseError {
-    let read = || -> Result<Layers, CaseError> {
-        let mut layers = match text {
-            Some(text) => Layers::from_text(text, path)?,
-            None => Layers::read(path)?,
-        };
-        sets.iter().try_for_each(|set| layers.add_set(set))?;
-        Ok(layers)
-    };
-    match read() {
-        Ok(layers) => CaseError::Key(Box::new(layers.error_at(key, message, remedy))),
-        Err(error) => error,
-    }
-}
-
 fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, CaseError> {
     for set in sets {
         layers.add_set(set)?;
     }
     let left_out = leave_out(&mut layers)?;
+    let files = layers.files();
     table::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
-    creepage::drop_ramp(&mut layers);
-    check::keys(&layers)?;
-    hold(&mut layers.table, "");
-    let mut case = Case::deserialize(layers.table.clone()).map_err(|error| {
+    drop_ramp(&mut layers);
+    let Layers { mut table, places } = layers;
+    check::keys(&mut table, &places)?;
+    let given = |key: &str| get(&table, key).is_some();
+    let (is_named, has_mode) = (given("name"), given("drive.mode"));
+    let mut case = Case::deserialize(table).map_err(|error| {
         let message = error.message().replace('\n', "; ");
-        let remedy = "see `creepage schema` for the keys and their forms";
-        CaseError::Key(Box::new(layers.error_nowhere("", &message, remedy)))
+        places.error_nowhere("", &message, "see `creepage schema` for the keys and their forms")
     })?;
-    case.left_out = left_out;
-    choose(&mut case, &layers);
-    if case.name.is_empty() && get(&layers.table, "name").is_none() {
-        case.name = name_from(path);
-    }
-    validation::check(&case, &layers)?;
-    write_defaults(&mut case);
-    Ok(case)
-}
-
-/// Replaces values by those that the case holds, below the section or list `pattern`.
-fn hold(table: &mut Table, pattern: &str) {
-    for (name, value) in table {
-        let pattern = join(pattern, name);
-        match (keys::find(&pattern), value) {
-            (Some(key), value) => *value = key.held(value),
-            (None, Value::Table(section)) => hold(section, &pattern),
-            (None, Value::Array(sections)) => {
-                let sections = sections.iter_mut().filter_map(Value::as_table_mut);
-                sections.for_each(|section| hold(section, &format!("{pattern}[]")));
-            }
-            _ => {}
-        }
-    }
-}
-
-/// The choices that follow from which keys are given.
-fn choose(case: &mut Case, layers: &Layers) {
-    if get(&layers.table, "drive.mode").is_none() && case.drive.torque.is_some() {
+    if !has_mode && case.drive.torque.is_some() {
         case.drive.mode = DriveMode::Torque;
     }
-}
-
-fn write_defaults(case: &mut Case) {
-    if case.is_half_space() {
-        case.half_space.inertia.get_or_insert(true);
+    if case.name.is_empty() && !is_named {
+        case.name = name_from(path);
     }
-    if case.drive.rises() {
-        case.drive.ramp = Some(case.drive.ramp());
-    }
-    case.friction.write_defaults(case.contact.enforcement == Enforcement::Exact);
-    if case.contact.enforcement == Enforcement::Exact {
-        case.contact.rows.get_or_insert_default();
-    }
-    if case.element.contact_layers == ContactLayers::Full {
-        case.element.layers = Some(case.contact_layers());
-        case.element.volumetric.get_or_insert_default();
-    }
-    if !case.is_half_space() {
-        case.damping.kelvin_voigt = Some(case.kelvin_voigt());
-    }
-    if case.time.step.is_none() {
-        case.time.factor = Some(case.factor());
-    }
-    if case.time.duration.is_none() {
-        case.time.roll = Some(case.rolled());
-    }
-    if case.mesh.file.is_some() {
-        case.mesh.unit.get_or_insert_default();
-        let sets = &mut case.mesh.sets;
-        for (set, name) in [
-            (&mut sets.disk, "disk"),
-            (&mut sets.bar, "bar"),
-            (&mut sets.hub, "hub"),
-            (&mut sets.tread, "tread"),
-            (&mut sets.top, "top"),
-            (&mut sets.clamp, "clamp"),
-        ] {
-            set.get_or_insert_with(|| name.to_owned());
-        }
-    } else {
-        case.mesh.grading = Some(case.mesh.grading());
-    }
-    case.preload.tolerance = Some(case.preload_tolerance());
-    case.preload.max_iterations = Some(case.preload_iterations());
-    case.guards.parted = case.longest_parted();
-    case.guards.friction = case.largest_friction();
-    if case.evaluate.transits.is_none() {
-        case.evaluate.last = Some(case.evaluate_last());
-    }
-    case.output.fields_interval = Some(case.fields_interval());
+    case.written = Written { places: places.into(), files, left_out };
+    validation::check(&case)?;
+    case.write_defaults();
+    Ok(case)
 }
 
 /// The file's stem, with whatever a folder's name should not have replaced.

@@ -8,7 +8,8 @@ use sha2::{Digest, Sha256};
 use toml::Value;
 
 use crate::case::error::CaseError;
-use crate::case::layers::{Layers, get};
+use crate::case::layers::Layers;
+use crate::case::value::get;
 use output::hexadecimal;
 
 const KEY: &str = "mesh.file";
@@ -40,14 +41,10 @@ impl MeshFormat {
 /// # Errors
 /// A file that cannot be read, has another ending than those of mesh files, or is not that of `mesh.sha256`.
 pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
-    let Some(file) = get(&layers.table, KEY).and_then(Value::as_str).map(str::to_owned) else {
-        return Ok(());
-    };
-    let origin = layers.origins.get(KEY);
-    let (folder, relative) = layers.paths_from(origin);
-    let path = folder.join(&file);
+    let Some(path) = layers.file_at(KEY) else { return Ok(()) };
     let refused = |problem: &str, remedy: &str| {
-        Err(layers.error(origin, KEY, &format!("\"{file}\": {problem}"), remedy))
+        let shown = get(&layers.table, KEY).and_then(Value::as_str).unwrap_or_default();
+        Err(layers.error(KEY, &format!("\"{shown}\": {problem}"), remedy).into())
     };
     if MeshFormat::of(&path).is_none() {
         return refused("the name ends in none of .msh, .inp, .vtu and .vtkhdf", ENDINGS);
@@ -56,6 +53,7 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
         Ok(bytes) => bytes,
         Err(problem) => {
             let problem = format!("{}: {problem}", path.display());
+            let (_, relative) = layers.places.folder_of(KEY);
             return refused(&problem, &format!("give the path of a mesh file, {relative}"));
         }
     };
@@ -65,7 +63,7 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
     {
         let problem = format!("\"{expected}\" is not that of {}, {found}", path.display());
         let remedy = "the mesh file has changed: restore the earlier one, or leave mesh.sha256 out";
-        return Err(layers.error(layers.origins.get(DIGEST), DIGEST, &problem, remedy));
+        return Err(layers.error(DIGEST, &problem, remedy).into());
     }
     let path = std::path::absolute(&path).unwrap_or(path);
     if let Some(Value::Table(mesh)) = layers.table.get_mut("mesh") {

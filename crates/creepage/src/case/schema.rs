@@ -7,21 +7,17 @@ pub use crate::case::bodies::{
     Bar, Disk, Ends, Grading, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry,
     Zone,
 };
-pub use crate::case::creepage::Creepage;
-pub use crate::case::forms::{Crown, Stiffness};
-use crate::case::hertz::hertz;
-use crate::case::key::Form::{Count, Number, OverTime, Points, Text};
-use crate::case::key::{
-    FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, none_or_within, within, word,
-};
-pub use crate::case::model::{BodyModel, LeftOut};
-use crate::case::section::section;
-use crate::case::words::words;
-pub use contact::{Normals, Rows};
+use crate::case::form::Form::{Count, Number, OverTime, Points, Text};
+use crate::case::form::{none_or_within, within};
+pub use crate::case::forms::{Creepage, Crown};
+use crate::case::key::{FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, word};
+use crate::case::section::{is_default, section, words};
+use crate::case::written::Written;
+pub use contact::{Normals, Rows, Stiffness};
 
 section! {
     /// A case: a disk pressed on a bar and rolled along it. SI units throughout.
-    required Case [""] {
+    required Case {
         /// Name of the case; the run goes to `runs/<name>` unless `--out` says otherwise.
         /// Default: the case file's name without its extension.
         #[serde(default)]
@@ -33,19 +29,19 @@ section! {
         extends: Option<String> => key(Text, "", "give the path of another case file, relative to this one");
         /// Whether the element kernels are those whose bits every processor can give (AVX2's, also where there
         /// is AVX-512 or no AVX2). Default false: the fastest of the machine.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+        #[serde(default, skip_serializing_if = "is_default")]
         deterministic: bool => FLAG;
         /// How the bodies are modelled: `"finite-elements"`, a disk and a bar; or `"half-space"`, two elastic
         /// half-spaces of one material, whose profiles near the contact are those of disk and bar. These have no
         /// mesh in depth, no penalty and exact friction; `mesh.zone.size` is the spacing of the points on their surfaces.
         /// Default `"finite-elements"`.
-        #[serde(default, skip_serializing_if = "BodyModel::is_default")]
+        #[serde(default, skip_serializing_if = "is_default")]
         model: BodyModel => word(BodyModel::WORDS);
-        /// Keys of the layers below that have no meaning for the model.
+        /// How the case was written.
         #[serde(skip)]
-        left_out: LeftOut;
+        written: Written;
         /// The half-spaces.
-        #[serde(default, skip_serializing_if = "HalfSpace::is_empty")]
+        #[serde(default, skip_serializing_if = "is_default")]
         half_space: HalfSpace;
         /// The disk.
         #[serde(default)]
@@ -96,24 +92,36 @@ section! {
     }
 }
 
+words! {
+    /// How the bodies are modelled.
+    BodyModel {
+        /// A disk and a bar of finite elements.
+        #[default]
+        FiniteElements = "finite-elements",
+        /// Two elastic half-spaces of one material.
+        HalfSpace = "half-space",
+    }
+}
+
+impl BodyModel {
+    /// The model of that word.
+    pub(crate) fn named(word: &str) -> Option<Self> {
+        [Self::FiniteElements, Self::HalfSpace].into_iter().find(|model| model.word() == word)
+    }
+}
+
 section! {
     /// The half-spaces of `model = "half-space"`.
-    optional HalfSpace ["half_space."] {
+    optional HalfSpace {
         /// Whether the half-spaces have inertia (true or false); without it their state is that of equilibrium at each
         /// instant. Default with `model = "half-space"`: true.
         inertia: Option<bool> => FLAG.half_space_only();
     }
 }
 
-impl HalfSpace {
-    fn is_empty(&self) -> bool {
-        *self == Self::default()
-    }
-}
-
 section! {
     /// The hexahedron.
-    optional Element ["element."] {
+    optional Element {
         /// Flanagan-Belytschko hourglass stiffness coefficient of the one-point element
         /// (dimensionless). Default 0.05.
         hourglass: f64 = 0.05
@@ -162,7 +170,7 @@ words! {
 
 section! {
     /// The load.
-    required Load ["load."] {
+    required Load {
         /// Force pressing the disk down on the bar (N), positive. Required.
         normal: f64
             => needed(Number(within(1e-12, 1e8)), "N",
@@ -193,7 +201,7 @@ words! {
 
 section! {
     /// The drive.
-    required Drive ["drive."] {
+    required Drive {
         /// Rolling speed V in +x (m/s). Required.
         speed: f64
             => needed(Number(within(1e-9, 500.0)), "m/s", "give the rolling speed in +x in m/s: `speed = 38.89`")
@@ -217,7 +225,7 @@ section! {
         /// the hub drifts so, and the rim follows as the disk bends, which takes longer than a roll of 60 mm unless
         /// `disk.hub_radius` leaves a shallow rim. Refused with half a model, plane strain, or a fine zone that follows the
         /// contact. Default 0.
-        #[serde(default, skip_serializing_if = "is_zero")]
+        #[serde(default, skip_serializing_if = "is_default")]
         lateral_creepage: f64
             => key(Number(within(-0.5, 0.5)), "-",
                 "give the ratio of the velocities: `lateral_creepage = 1e-3` for 1 per mille")
@@ -225,7 +233,7 @@ section! {
         /// Angular velocity of the disk about the vertical over V (rad/m), positive about +z; it rises over `ramp`. With
         /// finite elements the hub turns so and follows its heading, on an arc of this curvature; the rim follows as with
         /// `lateral_creepage`, against its inertia. Refused where that is. Default 0.
-        #[serde(default, skip_serializing_if = "is_zero")]
+        #[serde(default, skip_serializing_if = "is_default")]
         spin: f64
             => key(Number(within(-100.0, 100.0)), "rad/m",
                 "give the angular velocity over the speed, in rad/m: `spin = 0.1`");
@@ -253,10 +261,6 @@ impl Drive {
     }
 }
 
-fn is_zero(x: &f64) -> bool {
-    *x == 0.0
-}
-
 words! {
     /// What is prescribed about the hub's axis while rolling.
     DriveMode {
@@ -270,7 +274,7 @@ words! {
 
 section! {
     /// Contact enforcement.
-    optional Contact ["contact."] {
+    optional Contact {
         /// `"penalty"`: two-pass surface-to-surface penalty with a friction spring (Eqs 10-11), or
         /// `"exact"`: no penetration and no slip in adhesion at the nodes of the finer surface.
         /// Default `"penalty"`.
@@ -307,7 +311,7 @@ words! {
 
 section! {
     /// The penalty springs.
-    optional Penalty ["contact.penalty."] {
+    optional Penalty {
         /// Normal spring: a number (multiple of K/d per pass, LS-DYNA's scale factor),
         /// `{ stiffness = N/m^3 }` (sum of both passes) or `{ stability = fraction }` of the
         /// stability limit. Default 0.1.
@@ -323,7 +327,7 @@ section! {
 
 section! {
     /// Damping.
-    optional Damping ["damping."] {
+    optional Damping {
         /// Linear bulk viscosity coefficient (dimensionless). Default 0.
         bulk_linear: f64
             => key(Number(within(0.0, 2.0)), "-", "0.06 is usual; 0 turns it off")
@@ -346,7 +350,7 @@ section! {
 
 section! {
     /// The preload.
-    optional Preload ["preload."] {
+    optional Preload {
         /// `"static"` (Newton's method for the equilibrium under the load), `"relaxation"` (dynamic
         /// relaxation to it) or `"none"` (the load acts suddenly). Default `"static"`.
         method: PreloadMethod => word(PreloadMethod::WORDS).finite_elements_only();
@@ -396,7 +400,7 @@ words! {
 
 section! {
     /// Time.
-    optional Time ["time."] {
+    optional Time {
         /// Time step as a fraction of 2/omega_max (dimensionless). Above 1 the run is unstable;
         /// that is accepted with a warning, to show a blow-up. With `model = "half-space"` it is a fraction of the
         /// time in which pressure waves pass `mesh.zone.size`, or without inertia the patch does. Give this or `step`, not both.
@@ -439,30 +443,6 @@ words! {
     }
 }
 
-/// `damping.kelvin_voigt` of exact contact over the time in which a pressure wave passes an element (dimensionless).
-const KELVIN_VOIGT: f64 = 0.05;
-
-/// `time.theta` where it is not given (dimensionless).
-const THETA: f64 = 0.6;
-
-/// `time.factor` of half-spaces with and without inertia where neither it nor `time.step` is given (dimensionless). Without
-/// inertia tractions at 1 mm then differ by a thousandth from those of shorter steps.
-const HALF_SPACE_FACTORS: [f64; 2] = [0.5, 0.1];
-
-impl Enforcement {
-    /// `time.factor` of finite elements where neither it nor `time.step` is given (dimensionless).
-    ///
-    /// The springs that close after the preload raise the largest frequency; a third of the step is left to them. Exact
-    /// contact has no springs: what is left is for the frequencies that rise as elements are compressed, by half their
-    /// strain.
-    fn default_factor(self) -> f64 {
-        match self {
-            Self::Penalty => 0.67,
-            Self::Exact => 0.95,
-        }
-    }
-}
-
 /// How the time step of a case is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Step {
@@ -484,7 +464,7 @@ impl Step {
 
 section! {
     /// Evaluation.
-    optional Evaluate ["evaluate."] {
+    optional Evaluate {
         /// Rolled distance at the end of the run over which means are taken (m). Default 0.020, or
         /// the last third of a run shorter than 0.060 m.
         last: Option<f64>
@@ -499,7 +479,7 @@ section! {
 
 section! {
     /// Output.
-    optional Output ["output."] {
+    optional Output {
         /// Interval of `fields.vtkhdf` (s). Default: a fortieth of the run.
         fields_interval: Option<f64> => INTERVAL.finite_elements_only();
         /// Write the stress of every element to `fields.vtkhdf` (true or false). Default true.
@@ -519,7 +499,7 @@ section! {
 section! {
     /// How often a run writes a checkpoint, from which `--resume` goes on with the same bits. Whichever
     /// interval ends first counts.
-    optional Checkpoint ["checkpoint."] {
+    optional Checkpoint {
         /// Interval in time steps (steps). Default: none.
         steps: Option<u64> => key(Count(1, 1_000_000_000), "steps", "give a whole number: 100000");
         /// Interval in simulated time (s). Default: none.
@@ -531,7 +511,7 @@ section! {
 
 section! {
     /// What no sound run does. A run that does it stops, with its cause, place and remedy.
-    optional Guards ["guards."] {
+    optional Guards {
         /// Hourglass energy over strain energy (dimensionless), reckoned with the usual coefficient 0.05
         /// where `element.hourglass` is smaller. Default 0.5.
         hourglass: f64 = 0.5
@@ -555,7 +535,7 @@ section! {
 
 section! {
     /// A span of time in which contact is recorded every `every` steps.
-    required Window ["output.window[]."] {
+    required Window {
         /// Start of the window (s of rolling). Required.
         from: f64 => needed(Number(within(0.0, 10.0)), "s", "give the start in seconds");
         /// End of the window (s of rolling). Required.
@@ -574,7 +554,7 @@ impl Window {
 
 section! {
     /// Points whose nearest surface node is recorded at every step.
-    optional Probes ["output.probes."] {
+    optional Probes {
         /// Points [x, y] on the bar's top (m). Default: none.
         bar: Vec<[f64; 2]>
             => key(Points(within(-10.0, 10.0)), "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
@@ -584,156 +564,5 @@ section! {
         disk: Vec<[f64; 2]>
             => key(Points(within(-10.0, 10.0)), "m", "give pairs: [[0.02, 0.0], [0.03, 0.0]]")
                 .finite_elements_only();
-    }
-}
-
-impl Case {
-    /// The disk's material: `[material]` with the keys of `[disk.material]` over it.
-    pub fn disk_material(&self) -> Material {
-        self.disk.material.over(self.material)
-    }
-
-    /// The bar's material: `[material]` with the keys of `[bar.material]` over it.
-    pub fn bar_material(&self) -> Material {
-        self.bar.material.over(self.material)
-    }
-
-    /// How the time step is chosen.
-    pub fn step(&self) -> Step {
-        match self.time.step {
-            Some(step) => Step::Absolute(step),
-            None => Step::Fraction(self.factor()),
-        }
-    }
-
-    /// The parameter of implicit steps (dimensionless); none of explicit ones.
-    pub fn theta(&self) -> Option<f64> {
-        let implicit = self.time.integrator == Some(Integrator::Implicit);
-        implicit.then(|| self.time.theta.unwrap_or(THETA))
-    }
-
-    /// The Kelvin–Voigt time constant (s).
-    pub fn kelvin_voigt(&self) -> f64 {
-        let undamped = self.contact.enforcement == Enforcement::Penalty || self.theta().is_some();
-        let default = if undamped { 0.0 } else { KELVIN_VOIGT * self.wave_time() };
-        self.damping.kelvin_voigt.unwrap_or(default)
-    }
-
-    /// Longest stable explicit step (s) with the largest frequency `omega_max` (rad/s) without damping: Kelvin–Voigt
-    /// stiffens that mode, dt <= 2/omega (sqrt(1 + xi^2) - xi) with xi = eta omega/2.
-    pub fn stable_limit(&self, omega_max: f64) -> f64 {
-        let xi = 0.5 * self.kelvin_voigt() * omega_max;
-        2.0 / omega_max * ((1.0 + xi * xi).sqrt() - xi)
-    }
-
-    /// The time step as a fraction of the stability limit (dimensionless), where `time.step` does not give it.
-    pub fn factor(&self) -> f64 {
-        self.time.factor.unwrap_or(self.default_factor())
-    }
-
-    /// `time.factor` where neither it nor `time.step` is given (dimensionless).
-    pub fn default_factor(&self) -> f64 {
-        match self.model {
-            BodyModel::FiniteElements => self.contact.enforcement.default_factor(),
-            BodyModel::HalfSpace if self.has_inertia() => HALF_SPACE_FACTORS[0],
-            BodyModel::HalfSpace => HALF_SPACE_FACTORS[1],
-        }
-    }
-
-    /// The time (s) in which the faster pressure waves pass an element of the fine zone, or go from point to point
-    /// of half-spaces, of which their `time.factor` is a fraction; without inertia, the time in which the patch does.
-    pub fn wave_time(&self) -> f64 {
-        if self.is_half_space() && !self.has_inertia() {
-            return self.mesh.zone.size / self.drive.speed;
-        }
-        let speeds = [self.disk_material(), self.bar_material()].map(|m| m.pressure_wave());
-        self.mesh.zone.size / speeds[0].max(speeds[1])
-    }
-
-    /// Whether the bodies are half-spaces.
-    pub fn is_half_space(&self) -> bool {
-        self.model == BodyModel::HalfSpace
-    }
-
-    /// Whether half-spaces have inertia.
-    pub fn has_inertia(&self) -> bool {
-        self.half_space.inertia.unwrap_or(true)
-    }
-
-    /// Duration of rolling (s).
-    pub fn duration(&self) -> f64 {
-        self.time.duration.unwrap_or_else(|| self.rolled() / self.drive.speed)
-    }
-
-    /// Rolled distance (m).
-    pub fn rolled(&self) -> f64 {
-        match (self.time.roll, self.time.duration) {
-            (Some(roll), _) => roll,
-            (None, Some(duration)) => duration * self.drive.speed,
-            (None, None) => 0.060,
-        }
-    }
-
-    /// How far the disk drifts sideways at most (m), by lateral creepage and by the arc of its spin.
-    pub fn drift(&self) -> f64 {
-        let (rolled, Drive { lateral_creepage, spin, .. }) = (self.rolled(), &self.drive);
-        rolled * lateral_creepage.abs() + 0.5 * spin.abs() * rolled * rolled
-    }
-
-    /// How far the patch lies behind the middle of a disk that drifts, over the drift (dimensionless): it stays where both
-    /// surfaces are parallel across, which is on the crest of a bar under a disk that is flat across. 0 where both are.
-    pub fn patch_behind(&self) -> f64 {
-        let [disk, bar] =
-            [self.disk.crown_radius, self.bar.crown_radius].map(|crown| crown.curvature());
-        if bar > 0.0 { bar / (disk + bar) } else { 0.0 }
-    }
-
-    /// The evaluation window, over which means are taken: from and to (s of rolling).
-    pub fn evaluation_window(&self) -> [f64; 2] {
-        let to = self.duration();
-        [(to - self.evaluate_last() / self.drive.speed).max(0.0), to]
-    }
-
-    /// Rolled distance at the end over which means are taken (m).
-    pub fn evaluate_last(&self) -> f64 {
-        let Evaluate { last, transits } = self.evaluate;
-        let of_transits = || transits.map(|transits| transits * 2.0 * hertz(self).a);
-        last.or_else(of_transits).unwrap_or_else(|| (self.rolled() / 3.0).min(0.020))
-    }
-
-    /// The preload's tolerance (dimensionless); the default is that of its method.
-    pub fn preload_tolerance(&self) -> f64 {
-        self.preload.tolerance.unwrap_or(match self.preload.method {
-            PreloadMethod::Static => 1e-9,
-            PreloadMethod::Relaxation | PreloadMethod::None => 1e-8,
-        })
-    }
-
-    /// Iterations after which the preload fails; the default is that of its method.
-    pub fn preload_iterations(&self) -> u64 {
-        self.preload.max_iterations.unwrap_or(match self.preload.method {
-            PreloadMethod::Static => 100,
-            PreloadMethod::Relaxation | PreloadMethod::None => 40_000,
-        })
-    }
-
-    /// Longest time without contact (s), if there is a limit.
-    pub fn longest_parted(&self) -> Option<f64> {
-        let preloaded = self.preload.method != PreloadMethod::None;
-        self.guards.parted.or(preloaded.then_some(1e-4))
-    }
-
-    /// Largest coefficient of friction (dimensionless), if there is a limit.
-    pub fn largest_friction(&self) -> Option<f64> {
-        let lags = self.friction.law == friction::Kind::PrakashClifton;
-        self.guards.friction.or((!lags).then_some(5.0))
-    }
-
-    /// Intervals between the field snapshots of a run whose case gives no `output.fields_interval`.
-    pub(crate) const SNAPSHOTS: f64 = 40.0;
-
-    /// Interval between field snapshots (s).
-    pub fn fields_interval(&self) -> f64 {
-        self.output.fields_interval.unwrap_or_else(|| self.duration() / Self::SNAPSHOTS)
     }
 }

@@ -6,8 +6,10 @@ use toml::Value;
 
 use crate::case::column::unit_size;
 use crate::case::error::CaseError;
-use crate::case::layers::{Layers, Source, get, key_error_at, key_error_in, read_text};
+use crate::case::layers::Layers;
+use crate::case::places::Source;
 use crate::case::quantity::rounded;
+use crate::case::value::get;
 
 const KEY: &str = "friction.table";
 
@@ -25,47 +27,31 @@ const UNITS: [&str; 2] = ["m/s", "-"];
 /// # Errors
 /// A file that cannot be read, or is no table.
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
-    let Some(file) = get(&layers.table, KEY).and_then(Value::as_str).map(str::to_owned) else {
-        return Ok(());
-    };
-    let origin = layers.origins.get(KEY);
-    let (folder, relative) = layers.paths_from(origin);
-    let path = folder.join(&file);
-    let text = read_text(&path, input::TABLE).map_err(|error| match error {
-        CaseError::File { problem, .. } => layers.error(
-            origin,
+    let Some(path) = layers.file_at(KEY) else { return Ok(()) };
+    let text = input::text(&path, input::TABLE).map_err(|error| {
+        let shown = get(&layers.table, KEY).and_then(Value::as_str).unwrap_or_default();
+        let (_, relative) = layers.places.folder_of(KEY);
+        layers.error(
             KEY,
-            &format!("\"{file}\": {}: {problem}", path.display()),
+            &format!("\"{shown}\": {}: {}", path.display(), error.problem()),
             &format!("give the path of a CSV file, {relative}"),
-        ),
-        other => other,
+        )
     })?;
     let points = read(&text).map_err(|Mistake { line, problem, points }| {
-        let source = Source { name: path.display().to_string(), text: text.clone() };
-        let message = format!("{KEY}: {problem}");
-        let span = line_span(&text, line);
+        let source = Source::file(&path, text.clone());
+        let (span, message) = (line_span(&text, line), format!("{KEY}: {problem}"));
         // A file without a point may be any readable file, also a private one: nothing of it is quoted.
-        CaseError::Key(Box::new(if points {
-            key_error_in(source, span, KEY, &message, REMEDY)
+        if points {
+            source.error(span, KEY, &message, REMEDY)
         } else {
-            key_error_at(&source, span, KEY, &message, REMEDY)
-        }))
+            source.unquoted_error(span, KEY, &message, REMEDY)
+        }
     })?;
     let value: Vec<_> = points.points().iter().map(|point| Value::from(point.to_vec())).collect();
     if let Some(Value::Table(friction)) = layers.table.get_mut("friction") {
         friction.insert("table".into(), Value::Array(value));
     }
     Ok(())
-}
-
-/// The values as pairs of numbers, if all of them are.
-pub fn points(values: &[Value]) -> Option<Vec<[f64; 2]>> {
-    let number = crate::case::forms::float;
-    let pair = |value: &Value| match value.as_array()?.as_slice() {
-        [speed, mu] => Some([number(speed)?, number(mu)?]),
-        _ => None,
-    };
-    values.iter().map(pair).collect()
 }
 
 /// Bytes of a line, counted from 1.

@@ -1,8 +1,9 @@
 //! The units of a case: as comments behind the numbers of its text, and where a value looks as if given in another one.
 
-use crate::case::key::{Form, Key, STIFFNESS, number};
+use crate::case::form::{Form, STIFFNESS};
+use crate::case::key::Key;
 use crate::case::keys::{self, KEYS};
-use crate::case::layers::get;
+use crate::case::value::{digits, float, get, join, number, points, show};
 use toml::{Table, Value};
 
 /// What a resolved case begins with.
@@ -40,8 +41,7 @@ pub(crate) fn with_units(text: &str) -> String {
 
 /// The unit of a key, if it has one.
 fn unit_of(section: &str, name: &str) -> Option<&'static str> {
-    let path = if section.is_empty() { name.to_owned() } else { format!("{section}.{name}") };
-    let unit = match (keys::find(&path), keys::find(section)) {
+    let unit = match (keys::find(&join(section, name)), keys::find(section)) {
         (Some(key), _) => key.unit,
         // a penalty stiffness by its name
         (None, Some(key)) if key.form == Form::Stiffness => {
@@ -55,9 +55,9 @@ fn unit_of(section: &str, name: &str) -> Option<&'static str> {
 /// One sentence for each value that is not plausible in the unit of its key but would be in another one.
 pub(crate) fn mistaken(case: &Table) -> Vec<String> {
     let mistake = |key: &Key| {
-        let meant = meant(key, get(case, key.path)?)?;
+        let value = get(case, key.path)?;
+        let (meant, value) = (meant(key, value)?, show(value));
         let unit = if key.unit == "-" { String::new() } else { format!(" {}", key.unit) };
-        let value = get(case, key.path).map(crate::case::check::show)?;
         Some(format!("{} = {value}{unit} is unusual: did you mean {meant}?", key.path))
     };
     KEYS.iter().filter_map(mistake).collect()
@@ -78,14 +78,8 @@ pub(crate) fn meant(key: &Key, value: &Value) -> Option<String> {
 /// The number, or that of a table over time with the largest size.
 fn furthest(value: &Value) -> Option<f64> {
     let of_table = || {
-        let points = crate::case::table::points(value.as_array()?)?;
-        points.into_iter().map(|[_, x]| x).max_by(|a, b| a.abs().total_cmp(&b.abs()))
+        let values = points(value)?.into_iter().map(|[_, x]| x);
+        values.max_by(|a, b| a.abs().total_cmp(&b.abs()))
     };
-    crate::case::forms::float(value).or_else(of_table)
-}
-
-/// A computed number with at most four digits, in messages.
-pub(crate) fn digits(x: f64) -> String {
-    let rounded = format!("{x:.3e}").parse().unwrap_or(x);
-    number(rounded)
+    float(value).or_else(of_table)
 }

@@ -1,14 +1,11 @@
 //! How fast this machine computes.
 
-use std::path::PathBuf;
-
-use crate::run::{BenchResult, BlockElement, Level};
-
+use crate::Error;
 #[cfg(feature = "clap")]
 use crate::commands::values::words::kernels;
 use crate::commands::values::{EDGE, KERNELS, ONE_PER_CORE, maybe_parsed, parsed};
 use crate::rule::{THREADS, all_cores};
-use crate::{CaseSource, Error};
+use crate::run::{BenchResult, BlockElement, Level};
 use serde::Deserialize;
 
 /// What to measure.
@@ -54,9 +51,7 @@ pub fn bench(options: &BenchOptions) -> Result<BenchResult, Error> {
         let found = crate::run::bench_block(n, options.element, threads, options.kernels)?;
         return Ok(BenchResult::Block(found));
     }
-    // the reference case is no file: a key that the error is about is looked for in the options
-    let (path, sets) = (PathBuf::from("reference.toml"), options.sets.clone());
-    crate::run::bench(threads, options.kernels, &options.sets)
-        .map(BenchResult::Reference)
-        .map_err(|error| CaseSource { path, sets, text: Some(String::new()) }.placed(error))
+    let case = crate::run::reference(&options.sets)?;
+    let found = crate::run::bench(threads, options.kernels, &case);
+    found.map(BenchResult::Reference).map_err(|error| case.placed(error))
 }

@@ -15,12 +15,14 @@ impl CaseSource {
         case.warnings().iter().for_each(|warning| listener.remark(&format!("warning: {warning}")));
         Ok(case)
     }
+}
 
-    /// An error about a key of the case, with the line where the key was written.
+impl Case {
+    /// The error of a run; one about a key of the case has the line where the key was written.
     pub(crate) fn placed(&self, error: RunError) -> Error {
-        let Some(key) = error.key() else { return error.into() };
-        let (text, remedy) = (self.text.as_deref(), error.remedy());
-        crate::case::error_at_key(&self.path, text, &self.sets, key, &error.to_string(), &remedy)
-            .into()
+        match error.key() {
+            Some(key) => self.error_at(key, &error.to_string(), &error.remedy()).into(),
+            None => error.into(),
+        }
     }
 }

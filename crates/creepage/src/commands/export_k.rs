@@ -63,8 +63,8 @@ pub fn export_k(options: &ExportKOptions, listener: &mut dyn Listener) -> Result
         ));
     }
     let out = options.out.clone().unwrap_or_else(|| format!("{}.k", case.name).into());
-    claim("--out", &out, &KEYWORDS, &crate::case::inputs(&case, &options.case.path))?;
-    let placed = |error: crate::scenario::ScenarioError| options.case.placed(error.into());
+    claim("--out", &out, &KEYWORDS, &case.inputs())?;
+    let placed = |error: crate::scenario::ScenarioError| case.placed(error.into());
     let model = crate::scenario::model(&case).map_err(placed)?;
     let stop = listener.stop();
     let start = crate::scenario::start(&case, &model, None, &stop, &mut |_| {}, &mut |_| Ok(()));

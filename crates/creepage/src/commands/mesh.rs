@@ -31,8 +31,8 @@ pub fn mesh(options: &MeshOptions, listener: &mut dyn Listener) -> Result<MeshRe
     MESH.check("--out", options.out.as_ref())?;
     let case = options.case.load(listener)?;
     if let Some(out) = &options.out {
-        claim_grid("--out", out, &crate::case::inputs(&case, &options.case.path))?;
+        claim_grid("--out", out, &case.inputs())?;
     }
     let found = crate::run::mesh_report(&case, options.out.as_deref());
-    found.map_err(|error| options.case.placed(error))
+    found.map_err(|error| case.placed(error))
 }

@@ -64,5 +64,5 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     let (folder, stop) = (options.folder(&case), listener.stop());
     listener.folder(&folder);
     let summary = crate::run::run(&case, &options, &stop, &mut |progress| listener.run(progress));
-    Ok(Ran { folder, summary: summary.map_err(|error| source.placed(error))? })
+    Ok(Ran { folder, summary: summary.map_err(|error| case.placed(error))? })
 }

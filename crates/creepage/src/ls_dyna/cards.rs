@@ -336,9 +336,9 @@ impl<'a> Line<'a> {
                     let allowed: Vec<_> = [0.0]
                         .iter()
                         .chain(defaults)
-                        .map(|x| crate::case::key::number(*x))
+                        .map(|x| crate::case::value::number(*x))
                         .collect();
-                    refused(&crate::case::key::number(x), allowed.join(" or "))
+                    refused(&crate::case::value::number(x), allowed.join(" or "))
                 }
             },
             Role::Taken(kind) => Ok(Some(match (kind, word) {
@@ -424,5 +424,5 @@ pub(super) fn number(word: &str, parameters: &Parameters) -> Result<f64, Fault> 
 
 /// A number as text, of six significant digits at most.
 pub(crate) fn six(x: f64) -> String {
-    crate::case::key::number(format!("{x:.5e}").parse().unwrap_or(x))
+    crate::case::value::number(format!("{x:.5e}").parse().unwrap_or(x))
 }

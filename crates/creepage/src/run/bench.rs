@@ -9,6 +9,7 @@ use std::time::Instant;
 
 pub use block::{BlockBench, BlockElement, bench_block};
 
+use crate::case::CaseError;
 use crate::case::hertz::hertz;
 use crate::case::schema::{Case, PreloadMethod};
 use crate::run::error::RunError;
@@ -81,24 +82,32 @@ pub struct ReferenceBench {
     pub time_loop_bytes_per_element: f64,
 }
 
-/// Measures the element kernel, a whole step, and the machine's bandwidth and arithmetic, on the reference disk and
-/// bar at 1 mm, with so many `threads` and these `kernels` (by default the machine's best). `sets` are keys of the
-/// case, `KEY=VALUE` as on the command line.
+/// The reference case with `sets` laid over it, `KEY=VALUE` as on the command line.
 ///
 /// # Errors
-/// Keys that make no case; a mesh that cannot be made or that this machine has no memory for; kernels that it cannot
+/// Keys that make no case.
+pub fn reference(sets: &[String]) -> Result<Case, CaseError> {
+    Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), sets)
+}
+
+/// Measures the element kernel, a whole step, and the machine's bandwidth and arithmetic, on the reference disk and
+/// bar at 1 mm, with so many `threads` and these `kernels` (by default the machine's best). `case` is the
+/// [reference case](reference), or that with other keys.
+///
+/// # Errors
+/// A mesh that cannot be made or that this machine has no memory for; kernels that it cannot
 /// run; threads that cannot be started.
 pub fn bench(
     threads: usize,
     kernels: Option<Level>,
-    sets: &[String],
+    case: &Case,
 ) -> Result<ReferenceBench, RunError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
-    pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect), sets))
+    pool.install(|| measure(threads, kernels.unwrap_or_else(Level::detect), case))
 }
 
-fn measure(threads: usize, kernels: Level, sets: &[String]) -> Result<ReferenceBench, RunError> {
-    let mut case = Case::from_text(REFERENCE, std::path::Path::new("reference.toml"), sets)?;
+fn measure(threads: usize, kernels: Level, case: &Case) -> Result<ReferenceBench, RunError> {
+    let mut case = case.clone();
     // With the undeformed disk lowered by Hertz's approach about as many nodes touch as after a preload.
     if case.preload.method == PreloadMethod::None {
         case.disk.lift = -hertz(&case).approach;

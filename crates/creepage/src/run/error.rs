@@ -42,10 +42,6 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Text(#[from] output::NotWritten),
-    /// The case of a benchmark is wrong, by the keys that were set.
-    #[error(transparent)]
-    #[diagnostic(transparent)]
-    Case(#[from] crate::case::CaseError),
     /// Threads cannot be started.
     #[error("threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -72,7 +68,7 @@ impl RunError {
             Self::Folder(crate::run::folder::FolderError::Lost { .. }) => 3,
             Self::Scenario(error) => error.exit_code(),
             Self::Folder(_) | Self::Resume(_) | Self::NoContact => 2,
-            Self::NoLaw | Self::UnusedLaw { .. } | Self::Case(_) | Self::Threads(_) => 2,
+            Self::NoLaw | Self::UnusedLaw { .. } | Self::Threads(_) => 2,
             Self::Output(error) if error.damaged().is_some() => 2,
             Self::Output(_) | Self::Text(_) => 3,
         }

@@ -1,8 +1,7 @@
 //! Means over the evaluation window.
 
-use crate::case::key::number;
 use crate::case::schema::{Case, LoadMode};
-use crate::remedy;
+use crate::case::value::number;
 use crate::run::mesh_mode::MeshModeSums;
 use output::confidence;
 use serde::{Deserialize, Serialize};
@@ -111,13 +110,10 @@ impl Means {
         };
         Some(format!(
             "the mean normal force of the evaluation window, {mean:.4e} N, is {:.0} % off load.normal = {} N, {interval}: \
-             the disk has not come to rest on the bar, and its inertia bears the difference; {}",
+             the disk has not come to rest on the bar, and its inertia bears the difference; roll further (time.roll), \
+             evaluate later (evaluate.last), or refine mesh.zone.size until the patch has several elements",
             100.0 * miss / load,
-            number(load),
-            remedy!(
-                "roll further (time.roll), evaluate later (evaluate.last), or refine mesh.zone.size until the patch has \
-                 several elements"
-            )
+            number(load)
         ))
     }
 
@@ -141,10 +137,8 @@ impl Means {
         (steps > 0).then(|| {
             format!(
                 "exact contact did not converge in {steps} steps: its last sweep still changed a force by up to \
-                 {change:.1e} of the largest, and the conditions of contact and friction hold no better than that; {}",
-                remedy!(
-                    "give both contact surfaces elements of one size"
-                )
+                 {change:.1e} of the largest, and the conditions of contact and friction hold no better than that; give both \
+                 contact surfaces elements of one size"
             )
         })
     }

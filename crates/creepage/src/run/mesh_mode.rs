@@ -1,7 +1,6 @@
 //! Whether slip and the elements below the contact show a mode of the mesh, over the evaluation window.
 
 use crate::case::schema::{Case, ContactLayers};
-use crate::remedy;
 use crate::run::error::RunError;
 use crate::scenario::{BAR, DISK, Model};
 use contact::NodalContact;
@@ -41,15 +40,14 @@ impl MeshModeSums {
         let one_point = case.element.contact_layers == ContactLayers::OnePoint;
         let slip = self.alternating(case).and_then(|share| warning(share, one_point));
         let slip = slip.map(|text| match one_point {
-            true => format!("{text}: {}", remedy!("use element.contact_layers = \"full\"")),
+            true => format!("{text}: use element.contact_layers = \"full\""),
             false => text.to_owned(),
         });
         let energy = self.hourglass().filter(|part| *part > HOURGLASS_LIMIT).map(|part| {
             format!(
                 "the hourglass energy of the elements below the contact is {:.0} % of their strain energy: they \
-                 deform by modes of the mesh; {}",
-                100.0 * part,
-                remedy!("use element.contact_layers = \"full\"")
+                 deform by modes of the mesh; use element.contact_layers = \"full\"",
+                100.0 * part
             )
         });
         slip.into_iter().chain(energy).collect()

@@ -1,6 +1,5 @@
 //! Why a scenario cannot be set up.
 
-use crate::key;
 use mesh::import::Place;
 use std::path::{Path, PathBuf};
 
@@ -125,13 +124,13 @@ impl ScenarioError {
     pub fn key(&self) -> Option<&'static str> {
         match self {
             Self::Mesh(error) => key_of_mesh(error),
-            Self::Memory { .. } => Some(key!("mesh.zone.size")),
+            Self::Memory { .. } => Some("mesh.zone.size"),
             Self::NoMesh => Some("model"),
-            Self::Torque { .. } => Some(key!("drive.torque")),
-            Self::Slice(_) => Some(key!("mesh.plane_strain")),
-            Self::Symmetry(_) => Some(key!("mesh.symmetry")),
-            Self::Pattern { .. } => Some(key!("mesh.window")),
-            Self::Step { .. } => Some(key!("time.step")),
+            Self::Torque { .. } => Some("drive.torque"),
+            Self::Slice(_) => Some("mesh.plane_strain"),
+            Self::Symmetry(_) => Some("mesh.symmetry"),
+            Self::Pattern { .. } => Some("mesh.window"),
+            Self::Step { .. } => Some("time.step"),
             _ => None,
         }
     }

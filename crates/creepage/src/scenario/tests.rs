@@ -11,7 +11,7 @@ use mesh::{Allowed, MeshError, Parameter};
 use solid::{MaterialError, SolidError};
 use statics::StaticsError;
 
-use crate::case::keys::{KEYS, names_only_keys};
+use crate::case::keys::{KEYS, Place, place};
 use crate::scenario::Remedy;
 
 /// One value of every variant: a variant that is left out does not compile.
@@ -140,6 +140,24 @@ fn remedies() -> Vec<String> {
         all(&mut law.iter().map(Remedy::remedy)),
     ]
     .concat()
+}
+
+/// Whether a text is the path of a key or of a section.
+fn is_there(path: &str) -> bool {
+    !matches!(place(path), Place::Nowhere)
+}
+
+/// The words in square brackets of a text.
+fn in_brackets(text: &str) -> impl Iterator<Item = &str> {
+    let words = text.split('[').skip(1).filter_map(|rest| Some(rest.split_once(']')?.0));
+    let plain = |word: &str| word.chars().all(|c| c.is_ascii_alphanumeric() || "_.".contains(c));
+    words.filter(move |word| plain(word))
+}
+
+/// Whether every dotted path in a text is that of a key or a section, and every word in square brackets that of a section.
+fn names_only_keys(text: &str) -> bool {
+    let words = dotted(text).chain(in_brackets(text));
+    words.filter(|word| word.starts_with(|c: char| c.is_ascii_lowercase())).all(is_there)
 }
 
 #[test]

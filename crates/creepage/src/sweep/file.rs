@@ -4,13 +4,12 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
-use crate::case::check::{self, raise};
-use crate::case::error::{CaseError, KeyError};
-use crate::case::forms::{float, whole};
+use crate::case::error::{CaseError, KeyError, raise};
 use crate::case::key::Key;
-use crate::case::keys;
-use crate::case::layers::{Layers, get, join};
+use crate::case::keys::{self, Place, meant_key, nearest};
+use crate::case::layers::Layers;
 use crate::case::name;
+use crate::case::value::{float, get, join, show, whole};
 use crate::sweep::ensemble;
 
 /// A `log` or `linear` axis with more points than this is taken for a typing mistake.
@@ -130,10 +129,10 @@ impl Sweep {
     /// Checks the file as a whole, after its parts: files, keys given twice, lengths of axes, the time step.
     fn check(&self) -> Result<(), CaseError> {
         let refuse = |at: &str, message: &str, remedy: &str| {
-            Err(CaseError::Key(Box::new(self.layers.error_at(at, message, remedy))))
+            Err(self.layers.places.error(at, message, remedy).into())
         };
         if !self.base.is_file() {
-            let shown = get(&self.layers.table, "base").map(check::show).unwrap_or_default();
+            let shown = get(&self.layers.table, "base").map(show).unwrap_or_default();
             let message = format!("base = {shown}: there is no file {}", self.base.display());
             return refuse("base", &message, "give the path of a case file, relative to this file");
         }
@@ -224,7 +223,7 @@ impl Sweep {
     pub(crate) fn place_of(&self, key: &str, indices: &[usize]) -> Option<String> {
         if let Some(i) = self.axes.iter().position(|axis| axis.key == key) {
             let value = format!("axis[{i}].values[{}]", indices[i]);
-            let written = self.layers.origins.contains_key(&value);
+            let written = self.layers.places.origins.contains_key(&value);
             return Some(if written { value } else { self.axis_place(i) });
         }
         // A key in a list of sections has the place of the list.
@@ -329,18 +328,18 @@ impl Reading<'_> {
     }
 
     fn refuse(&mut self, at: &str, message: &str, remedy: &str) {
-        self.errors.push(self.layers.error_at(at, message, remedy));
+        self.errors.push(self.layers.places.error(at, message, remedy));
     }
 
     fn not_a_section(&mut self, at: &str, value: &Value) {
-        let message = format!("{at} = {} must be a section", check::show(value));
+        let message = format!("{at} = {} must be a section", show(value));
         self.refuse(at, &message, &format!("write [{at}] with its keys below it"));
     }
 
     /// Refuses keys that are not in `names`.
     fn known(&mut self, section: &str, table: &Table, names: &[&str]) {
         for name in table.keys().filter(|name| !names.contains(&name.as_str())) {
-            let near = check::nearest(name, names.iter().copied());
+            let near = nearest(name, names.iter().copied());
             let meant = near.map(|near| format!("did you mean `{near}`? ")).unwrap_or_default();
             let at = join(section, name);
             let remedy = format!("{meant}there are: {}", names.join(", "));
@@ -353,7 +352,7 @@ impl Reading<'_> {
         match table.get(name)? {
             Value::String(text) => Some(text.clone()),
             other => {
-                let message = format!("{at} = {} must be text in quotes", check::show(other));
+                let message = format!("{at} = {} must be text in quotes", show(other));
                 self.refuse(&at, &message, "put it in quotes");
                 None
             }
@@ -365,7 +364,7 @@ impl Reading<'_> {
         let value = table.get(name)?;
         let number = float(value).filter(|x| x.is_finite());
         if number.is_none() {
-            let message = format!("{at} = {} must be a number", check::show(value));
+            let message = format!("{at} = {} must be a number", show(value));
             self.refuse(&at, &message, "give a number, without quotes");
         }
         number
@@ -375,7 +374,7 @@ impl Reading<'_> {
     fn count(&mut self, at: &str, value: &Value, low: usize, remedy: &str) -> Option<usize> {
         let n = whole(value).map(|n| n as usize).filter(|n| (low..=MOST_POINTS).contains(n));
         if n.is_none() {
-            let shown = check::show(value);
+            let shown = show(value);
             let message =
                 format!("{at} = {shown} must be a whole number from {low} to {MOST_POINTS}");
             self.refuse(at, &message, remedy);
@@ -395,7 +394,7 @@ impl Reading<'_> {
                 items.iter().filter_map(Value::as_table).collect()
             }
             Some(other) => {
-                let message = format!("{name} = {} must be a list of sections", check::show(other));
+                let message = format!("{name} = {} must be a list of sections", show(other));
                 self.refuse(name, &message, &remedy);
                 Vec::new()
             }
@@ -405,16 +404,16 @@ impl Reading<'_> {
     fn sets(&mut self, table: &Table, prefix: &str, sets: &mut Vec<(String, Value)>) {
         for (name, value) in table {
             let (key, at) = (join(prefix, name), join("set", &join(prefix, name)));
-            match (keys::find(&key), value) {
-                (Some(known), value) => {
+            match (keys::place(&key), value) {
+                (Place::Key(known), value) => {
                     self.allowed(&at, known, value);
                     sets.push((key, value.clone()));
                 }
-                (None, Value::Table(inner)) => self.sets(inner, &key, sets),
+                (_, Value::Table(inner)) => self.sets(inner, &key, sets),
                 // A list of sections, whose keys are checked with the case.
-                (None, Value::Array(_)) if keys::is_list(&key) => sets.push((key, value.clone())),
-                (None, _) => {
-                    self.refuse(&at, &format!("unknown key {key}"), &check::suggestion(&key));
+                (Place::List, Value::Array(_)) => sets.push((key, value.clone())),
+                _ => {
+                    self.refuse(&at, &format!("unknown key {key}"), &meant_key(&key));
                 }
             }
         }
@@ -450,7 +449,7 @@ impl Reading<'_> {
     }
 
     fn allowed(&mut self, at: &str, key: &Key, value: &Value) -> bool {
-        let problem = check::refused(key, value);
+        let problem = key.mistake(value);
         if let Some(problem) = &problem {
             self.refuse(at, &format!("{} = {problem}", key.path), key.remedy);
         }
@@ -473,7 +472,7 @@ impl Reading<'_> {
             }
             Some(key) => Some(key),
             None => {
-                self.refuse(&place, &format!("unknown key {name}"), &check::suggestion(&name));
+                self.refuse(&place, &format!("unknown key {name}"), &meant_key(&name));
                 None
             }
         }
@@ -491,10 +490,10 @@ impl Reading<'_> {
             return None;
         };
         let place = join(at, form);
-        let values = match (form, &table[form]) {
+        let mut values = match (form, &table[form]) {
             ("values", Value::Array(values)) => values.clone(),
             ("values", other) => {
-                let message = format!("{place} = {} must be a list", check::show(other));
+                let message = format!("{place} = {} must be a list", show(other));
                 self.refuse(&place, &message, "put the values in brackets: values = [0.1, 1.0]");
                 return None;
             }
@@ -509,12 +508,13 @@ impl Reading<'_> {
             self.refuse(&place, &message, "give at least one value, or leave the axis out");
         }
         let key = key?;
-        let values: Vec<Value> = values.iter().map(|value| key.held(value)).collect();
+        values.iter_mut().for_each(|value| key.hold(value));
         for (i, value) in values.iter().enumerate() {
             let item = format!("{place}[{i}]");
-            let item = if self.layers.origins.contains_key(&item) { item } else { place.clone() };
+            let item =
+                if self.layers.places.origins.contains_key(&item) { item } else { place.clone() };
             if self.allowed(&item, key, value) && values[..i].contains(value) {
-                let message = format!("{} = {} stands twice", key.path, check::show(value));
+                let message = format!("{} = {} stands twice", key.path, show(value));
                 self.refuse(&item, &message, "give each value once");
             }
         }
@@ -592,8 +592,7 @@ impl Reading<'_> {
         let power = self.number(table, at, "power").unwrap_or(1.0);
         for value in &axes[axis].values {
             let Some(x) = float(value) else {
-                let message =
-                    format!("{} follows {}, which is no number", key.path, check::show(value));
+                let message = format!("{} follows {}, which is no number", key.path, show(value));
                 self.refuse(&join(at, "from"), &message, "let it follow an axis of numbers");
                 return;
             };

@@ -173,7 +173,7 @@ fn other_sweep(folder: &Path, sweep: &Sweep, plan: &SweepPlan) -> CaseError {
     let message =
         format!("{} holds another sweep, of {file}: it differs in the {what}", folder.display());
     let remedy = "choose another folder with --out DIR, or replace that sweep with --force";
-    CaseError::Key(Box::new(sweep.layers.error_at(&at, &message, remedy)))
+    sweep.layers.places.error(&at, &message, remedy).into()
 }
 
 fn read_plan(folder: &Path) -> Result<Option<PlanFile>, SweepError> {
@@ -312,7 +312,7 @@ fn smallest_step(
         let limit = crate::scenario::stable_limit(case, Some(&preloads(folder)), stop);
         let limit = limit.map_err(|error| match error {
             ScenarioError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
-            error if error.key().is_some() => sweep.refused(error, &run.indices).into(),
+            error if error.key().is_some() => sweep.refused(&error, case, &run.indices).into(),
             cause => SweepError::Limit { run: run.name.clone(), cause: Box::new(cause) },
         })?;
         smallest = smallest.min(case.factor() * limit);

@@ -6,9 +6,9 @@ use sha2::{Digest, Sha256};
 use toml::Value;
 
 use crate::case::error::CaseError;
-use crate::case::forms::{Stiffness, float};
 use crate::case::name;
-use crate::case::schema::{Case, Enforcement};
+use crate::case::schema::{Case, Enforcement, Stiffness};
+use crate::case::value::float;
 use crate::scenario::{Remedy, ScenarioError};
 use crate::sweep::file::{Axis, Mode, Sweep};
 use crate::sweep::plan;
@@ -49,7 +49,7 @@ impl Sweep {
         };
         if count > MOST_RUNS {
             let message = format!("the axes make {count} runs, more than {MOST_RUNS}");
-            let error = self.layers.error_at("axis", &message, "give fewer values");
+            let error = self.layers.places.error("axis", &message, "give fewer values");
             return Err(CaseError::Key(Box::new(error)));
         }
         (0..count).map(|n| self.point(n, &lengths)).collect()
@@ -111,7 +111,7 @@ impl Sweep {
             self.axes[i].key
         );
         let remedy = "give the spring as a scale factor (0.1) or an areal stiffness ({ stiffness = 3.5e13 })";
-        Err(CaseError::Key(Box::new(self.layers.error_at(&self.axis_place(i), &message, remedy))))
+        Err(self.layers.places.error(&self.axis_place(i), &message, remedy).into())
     }
 
     /// Sets [`Point::elements`] of every run by making its mesh; equal meshes are made once.
@@ -128,7 +128,7 @@ impl Sweep {
                 Some(elements) => *elements,
                 None => {
                     let elements = crate::scenario::elements(case);
-                    let elements = elements.map_err(|e| self.refused(e, &point.indices))?;
+                    let elements = elements.map_err(|e| self.refused(&e, case, &point.indices))?;
                     known.extend(key.map(|key| (key, elements)));
                     elements
                 }
@@ -157,24 +157,27 @@ impl Sweep {
         };
         let said = found.message.trim_start_matches("--set: ");
         let remedy = found.help.as_deref().unwrap_or("change this value");
-        CaseError::Key(Box::new(self.layers.error_at(&place, said, remedy)))
+        self.layers.places.error(&place, said, remedy).into()
     }
 
     /// An error of a run that could not be set up, at the place in the sweep file or the base case that caused it.
-    pub(crate) fn refused(&self, error: ScenarioError, indices: &[usize]) -> CaseError {
+    pub(crate) fn refused(
+        &self,
+        error: &ScenarioError,
+        case: &Case,
+        indices: &[usize],
+    ) -> CaseError {
         let (message, remedy) = (error.to_string(), error.remedy());
-        let place = error.key().and_then(|key| self.place_of(key, indices));
-        match (place, error.key()) {
-            (Some(place), _) => {
-                CaseError::Key(Box::new(self.layers.error_at(&place, &message, &remedy)))
-            }
-            (None, Some(key)) => {
-                crate::case::error_at_key(&self.base, None, &[], key, &message, &remedy)
-            }
-            (None, None) => {
-                let remedy = "change the base case or the axes";
-                CaseError::Key(Box::new(self.layers.error_at("base", &message, remedy)))
-            }
+        let Some(key) = error.key() else {
+            return self
+                .layers
+                .places
+                .error("base", &message, "change the base case or the axes")
+                .into();
+        };
+        match self.place_of(key, indices) {
+            Some(place) => self.layers.places.error(&place, &message, &remedy).into(),
+            None => case.error_at(key, &message, &remedy),
         }
     }
 }
@@ -193,7 +196,7 @@ fn run_name(n: usize, chosen: &[(&str, &Value)]) -> String {
 
 fn folder_text(value: &Value) -> String {
     match value {
-        Value::Float(x) => crate::case::key::number(*x),
+        Value::Float(x) => crate::case::value::number(*x),
         Value::Table(table) => {
             let entries: Vec<_> =
                 table.iter().map(|(key, value)| format!("{key}-{}", folder_text(value))).collect();

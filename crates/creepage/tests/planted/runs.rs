@@ -1,7 +1,7 @@
 //! Runs with planted content: each measure returns what was planted, and the perfect one passes.
 use crate::planted::*;
 use creepage::check::{
-    Basis, CheckOptions, ContactHistory, Limits, Pairing, Report, RunPaths, Span, check,
+    Basis, ContactHistory, Criteria, Limits, Pairing, Report, RunPaths, Span, check,
 };
 use output::GridFile;
 use serde_json::Value;
@@ -407,7 +407,7 @@ fn the_map_shows_the_measures_of_nodes_in_contact_and_nothing_at_others() {
     let (paths, map) = (RunPaths::of(folder.path()).unwrap(), folder.path().join("map.vtkhdf"));
     let mut basis = Basis::read(&paths).unwrap();
     let limits = Limits::for_enforcement(basis.enforcement.as_deref());
-    let options = CheckOptions { window: None, limits, report: Report::Stated, map: Some(&map) };
+    let options = Criteria { window: None, limits, report: Report::Stated, map: Some(&map) };
     check(&paths, &mut basis, &options).unwrap();
     let file = GridFile::open(&map).unwrap();
     assert_eq!(file.times().unwrap(), [0.0, DT]);
@@ -453,7 +453,7 @@ fn transits_end_with_the_window_of_the_run_where_its_last_record_lies_within_an_
         basis.window = Some([0.0, end_of_run]);
         let limits = Limits::for_enforcement(basis.enforcement.as_deref());
         let window = Some(Span::Transits(transits));
-        let options = CheckOptions { window, limits, report: Report::Stated, map: None };
+        let options = Criteria { window, limits, report: Report::Stated, map: None };
         let found = check(&paths, &mut basis, &options).unwrap().result.window;
         for (found, expected) in found.iter().zip([end - 20.0 * DT, end]) {
             assert!((found - expected).abs() < 1e-12, "{end_of_run:e}: {found:e} {expected:e}");

@@ -31,7 +31,7 @@ fn a_case_without_the_key_is_of_finite_elements_and_does_not_say_so() {
     let case = set(&[]).unwrap();
     assert_eq!(case.model, BodyModel::FiniteElements);
     let table = case.table();
-    for key in ["model", "half_space", "left_out"] {
+    for key in ["model", "half_space", "written"] {
         assert!(!table.contains_key(key), "{key}");
     }
     assert!(!case.to_toml().contains("lateral_creepage") && !case.to_toml().contains("spin"));
@@ -76,7 +76,7 @@ fn keys_of_an_earlier_layer_without_meaning_are_left_out_with_one_warning() {
                        guards.parted";
         assert_eq!(case.warnings(), [warning]);
         assert!(KEYS.iter().all(|key| key.has_meaning_for(case.model)
-            || crate::case::layers::get(&case.table(), key.path).is_none()));
+            || crate::case::value::get(&case.table(), key.path).is_none()));
         assert!(!case.table().contains_key("contact"));
     }
     assert_eq!(Case { name: "top".into(), ..by_option }, top);
@@ -86,7 +86,7 @@ fn keys_of_an_earlier_layer_without_meaning_are_left_out_with_one_warning() {
     // and back again
     let back = write("back.toml", "extends = \"top.toml\"\nmodel = \"finite-elements\"\n");
     let back = Case::load(&back, &[]).unwrap();
-    assert_eq!((back.mesh.growth, back.left_out.0.len()), (1.2, 0));
+    assert_eq!((back.mesh.growth, back.written.left_out.len()), (1.2, 0));
 }
 
 #[test]

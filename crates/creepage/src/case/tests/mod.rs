@@ -384,3 +384,22 @@ fn a_table_is_read_beside_the_file_that_names_it_and_kept_in_the_case() {
     fs::write(dir.path().join("base/mu.csv"), mm.replace("mm/s", "mm")).unwrap();
     refused(load(), &["mu.csv:1:", "'mm' is no known unit of a slip velocity", "mm/s"]);
 }
+
+#[test]
+fn an_error_found_later_shows_the_line_that_was_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let [base, top] = ["base.toml", "top.toml"].map(|name| dir.path().join(name));
+    fs::write(&base, SHORT).unwrap();
+    fs::write(&top, "extends = \"base.toml\"\n[bar]\nlength = 0.3\n").unwrap();
+    let case = Case::load(&top, &["disk.radius=0.5".into()]).unwrap();
+    assert_eq!(case.inputs(), [top.clone(), base.clone()]);
+    [&base, &top].into_iter().for_each(|file| fs::remove_file(file).unwrap());
+    for (key, place) in [
+        ("load.normal", format!("{}:1: no", base.display())),
+        ("bar.length", format!("{}:3: no", top.display())),
+        ("disk.radius", "--set: no".into()),
+        ("mesh.growth", format!("{}: no", top.display())),
+    ] {
+        assert_eq!(case.error_at(key, "no", "").to_string(), place, "{key}");
+    }
+}

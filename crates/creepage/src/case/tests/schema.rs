@@ -5,9 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::case::check::refused;
+use crate::case::form::{Form, Range, STIFFNESS};
 use crate::case::json_schema;
-use crate::case::key::{Form, Range, STIFFNESS};
 use crate::case::keys::KEYS;
 
 /// Paths of all keys in the JSON Schema.
@@ -40,7 +39,7 @@ fn the_table_of_keys_and_the_schema_name_the_same_keys() {
 #[test]
 fn every_key_of_the_schema_tells_unit_default_and_range() {
     let schema = json_schema();
-    for key in KEYS {
+    for key in KEYS.iter() {
         let pointer = key.path.replace("[]", "/items").replace('.', "/properties/");
         let at = schema.pointer(&format!("/properties/{pointer}")).unwrap();
         let text = at.get("description").and_then(Value::as_str).unwrap();
@@ -108,7 +107,7 @@ fn every_number_has_a_finite_range_that_holds_no_number_too_small_to_matter() {
     const PLACES: [&str; 4] =
         ["bar.start", "mesh.zone.start", "output.probes.bar", "output.probes.disk"];
     let mut numbers = 0;
-    for key in KEYS {
+    for key in KEYS.iter() {
         for Range { low, high, or_zero } in ranges(key.form) {
             numbers += 1;
             assert!(low.is_finite() && high.is_finite() && low < high, "{}", key.path);
@@ -131,7 +130,7 @@ fn no_number_beyond_its_range_is_taken_and_the_refusal_tells_range_and_unit() {
                 Form::Curve(..) => toml::Value::from(vec![vec![0.0, absurd]]),
                 _ => toml::Value::Float(absurd),
             };
-            let problem = refused(key, &value).unwrap_or_default();
+            let problem = key.mistake(&value).unwrap_or_default();
             let range = match key.form {
                 Form::Count(low, high) => format!("from {low} to {high}"),
                 Form::Curve(_, range) => range.to_string(),
@@ -151,7 +150,7 @@ fn no_number_beyond_its_range_is_taken_and_the_refusal_tells_range_and_unit() {
 fn the_default_that_a_key_tells_is_the_one_that_it_has() {
     let schema = json_schema();
     let mut compared = 0;
-    for key in KEYS {
+    for key in KEYS.iter() {
         let pointer = key.path.replace("[]", "/items").replace('.', "/properties/");
         let at = schema.pointer(&format!("/properties/{pointer}")).unwrap();
         let text = at["description"].as_str().unwrap();

@@ -1,8 +1,8 @@
 //! Sizes of the bodies and of the fine zone that fit one another.
 
-use super::{Findings, round};
-use crate::case::key::number;
+use super::{Findings, metres};
 use crate::case::schema::{Case, Crown, Grading, PreloadMethod, Symmetry};
+use crate::case::value::number;
 
 /// More elements than this in the fine zones are taken for a typing mistake.
 const MOST_ELEMENTS: f64 = 2e8;
@@ -51,7 +51,7 @@ fn check_zone_size(case: &Case, found: &mut Findings<'_>) {
         found.require(
             !applies || value <= limit,
             &[key, limit_key],
-            || format!("{key} = {asked} m must be at most {limit_key} = {limit_text} m"),
+            format_args!("{key} = {asked} m must be at most {limit_key} = {limit_text} m"),
             remedy,
         );
     }
@@ -63,40 +63,34 @@ fn check_disk(case: &Case, found: &mut Findings<'_>) {
     found.require(
         disk.hub_radius < disk.radius,
         &["disk.hub_radius", "disk.radius"],
-        || {
-            format!(
-                "disk.hub_radius = {} m must be less than disk.radius = {} m",
-                number(disk.hub_radius),
-                number(disk.radius)
-            )
-        },
+        format_args!(
+            "disk.hub_radius = {} m must be less than disk.radius = {} m",
+            number(disk.hub_radius),
+            number(disk.radius)
+        ),
         "the hub is the rigid core of the disk: make it smaller",
     );
     let least = SMALLEST_HUB * disk.radius;
     found.require(
         case.mesh.file.is_some() || disk.hub_radius >= least,
         &["disk.hub_radius", "disk.radius"],
-        || {
-            format!(
-                "disk.hub_radius = {} m must be at least {SMALLEST_HUB} of disk.radius, {} m: the elements around a \
-                 smaller one are needles",
-                number(disk.hub_radius),
-                number(round(least))
-            )
-        },
+        format_args!(
+            "disk.hub_radius = {} m must be at least {SMALLEST_HUB} of disk.radius, {} m: the elements around a \
+             smaller one are needles",
+            number(disk.hub_radius),
+            metres(least)
+        ),
         "make the hub larger: a tenth of the disk is as good as none",
     );
     let rim = disk.radius - disk.hub_radius;
     found.require(
         case.mesh.file.is_some() || rim <= 0.0 || zone.depth <= rim,
         &["mesh.zone.depth", "disk.hub_radius", "disk.radius"],
-        || {
-            format!(
-                "mesh.zone.depth = {} m must be at most disk.radius - disk.hub_radius = {} m",
-                number(zone.depth),
-                number(round(rim))
-            )
-        },
+        format_args!(
+            "mesh.zone.depth = {} m must be at most disk.radius - disk.hub_radius = {} m",
+            number(zone.depth),
+            metres(rim)
+        ),
         NOT_INSIDE,
     );
 }
@@ -111,7 +105,7 @@ fn check_crowns(case: &Case, found: &mut Findings<'_>) {
             found.require(
                 radius >= width,
                 &[key],
-                || format!("{key} = {} m must be at least the width, {width} m", number(radius)),
+                format_args!("{key} = {} m must be at least the width, {width} m", number(radius)),
                 "a crown radius below the width of the body makes no running surface",
             );
         }
@@ -127,22 +121,20 @@ fn check_slice(case: &Case, found: &mut Findings<'_>) {
     found.require(
         disk.crown_radius == Crown::Flat && bar.crown_radius == Crown::Flat,
         &["mesh.plane_strain", "disk.crown_radius", "bar.crown_radius"],
-        || "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar".into(),
+        "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar",
         "plane strain is the contact of two cylinders: set bar.crown_radius = \"flat\"",
     );
     let alike = |width: f64| (width - zone.width).abs() <= 1e-9 * zone.width;
     found.require(
         alike(disk.width) && alike(bar.width),
         &["mesh.plane_strain", "mesh.zone.width", "disk.width", "bar.width"],
-        || {
-            format!(
-                "mesh.plane_strain = true must go with one width of all, but mesh.zone.width = {} m, disk.width \
-                 = {} m, bar.width = {} m",
-                number(zone.width),
-                number(disk.width),
-                number(bar.width)
-            )
-        },
+        format_args!(
+            "mesh.plane_strain = true must go with one width of all, but mesh.zone.width = {} m, disk.width \
+             = {} m, bar.width = {} m",
+            number(zone.width),
+            number(disk.width),
+            number(bar.width)
+        ),
         "make a slice: give all three the same width",
     );
 }
@@ -153,13 +145,13 @@ fn check_symmetry(case: &Case, found: &mut Findings<'_>) {
     found.require(
         whole || !case.mesh.plane_strain,
         &["mesh.symmetry", "mesh.plane_strain"],
-        || "mesh.symmetry = \"half\" has no meaning with mesh.plane_strain = true".into(),
+        "mesh.symmetry = \"half\" has no meaning with mesh.plane_strain = true",
         "a slice is one element wide: leave mesh.symmetry out",
     );
     found.require(
         whole || case.preload.method != PreloadMethod::Relaxation,
         &["mesh.symmetry", "preload.method"],
-        || "mesh.symmetry = \"half\" does not go with preload.method = \"relaxation\"".into(),
+        "mesh.symmetry = \"half\" does not go with preload.method = \"relaxation\"",
         "preload.method = \"static\" finds the same state, and sooner",
     );
 }
@@ -170,13 +162,13 @@ fn check_window(case: &Case, found: &mut Findings<'_>) {
     found.require(
         stays || case.mesh.file.is_none(),
         &["mesh.window", "mesh.file"],
-        || "mesh.window does not go with mesh.file: the pattern of a mesh that is read is not known".into(),
+        "mesh.window does not go with mesh.file: the pattern of a mesh that is read is not known",
         "leave out mesh.window, or let the mesh be generated",
     );
     found.require(
         stays || !case.mesh.plane_strain,
         &["mesh.window", "mesh.plane_strain"],
-        || "mesh.window does not go with mesh.plane_strain = true".into(),
+        "mesh.window does not go with mesh.plane_strain = true",
         "a slice has few elements: give it a mesh.zone.length for the whole roll",
     );
 }
@@ -190,15 +182,13 @@ fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
     found.require(
         zone_start >= bar.start - rounding && zone_end <= bar_end + rounding,
         &["mesh.zone.start", "mesh.zone.length", "mesh.window", "bar.start", "bar.length"],
-        || {
-            format!(
-                "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
-                number(round(zone_start)),
-                number(round(zone_end)),
-                number(round(bar.start)),
-                number(round(bar_end))
-            )
-        },
+        format_args!(
+            "the fine zone from x = {} to {} m must lie inside the bar, x = {} to {} m",
+            metres(zone_start),
+            metres(zone_end),
+            metres(bar.start),
+            metres(bar_end)
+        ),
         "move or shorten the fine zone (mesh.zone.start, mesh.zone.length), or lengthen the bar",
     );
     let quarter = 0.5 * case.disk.radius * std::f64::consts::PI;
@@ -206,13 +196,11 @@ fn check_zone_place(case: &Case, found: &mut Findings<'_>) {
     found.require(
         length <= quarter,
         &["mesh.zone.length", "mesh.window", "disk.radius"],
-        || {
-            format!(
-                "the fine zone is {} m long and must be at most a quarter of the disk's circumference, {} m",
-                number(round(length)),
-                number(round(quarter))
-            )
-        },
+        format_args!(
+            "the fine zone is {} m long and must be at most a quarter of the disk's circumference, {} m",
+            metres(length),
+            metres(quarter)
+        ),
         "shorten the fine zone or enlarge the disk",
     );
 }
@@ -229,7 +217,7 @@ fn check_grading(case: &Case, found: &mut Findings<'_>) {
         found.require(
             applies,
             &["mesh.grading", key],
-            || format!("mesh.grading = \"two_to_one\" cannot go with {key}: {why}"),
+            format_args!("mesh.grading = \"two_to_one\" cannot go with {key}: {why}"),
             "leave out mesh.grading",
         );
     }
@@ -243,13 +231,11 @@ fn check_element_count(case: &Case, found: &mut Findings<'_>) {
     found.require(
         case.mesh.file.is_some() || elements <= MOST_ELEMENTS,
         &["mesh.zone.size"],
-        || {
-            format!(
-                "mesh.zone.size = {} m makes about {elements:.1e} elements in the fine zones, more \
+        format_args!(
+            "mesh.zone.size = {} m makes about {elements:.1e} elements in the fine zones, more \
                  than {MOST_ELEMENTS:.0e}",
-                number(zone.size)
-            )
-        },
+            number(zone.size)
+        ),
         "give the element size in metres: 1e-3 for 1 mm",
     );
 }

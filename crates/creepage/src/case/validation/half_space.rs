@@ -1,8 +1,8 @@
 //! Two half-spaces: what drives them, and the points on their surfaces.
 
 use super::Findings;
-use crate::case::key::number;
 use crate::case::schema::Case;
+use crate::case::value::number;
 
 /// More points than this on a surface are taken for a typing mistake.
 const MOST_POINTS: f64 = 1e8;
@@ -20,37 +20,31 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
             "bar.material.density",
             "model",
         ],
-        || {
-            "disk.material and bar.material differ: model = \"half-space\" needs one material, since else friction changes \
-             the pressure"
-                .into()
-        },
+        "disk.material and bar.material differ: model = \"half-space\" needs one material, since else friction changes \
+             the pressure",
         "give [material] alone, or set model = \"finite-elements\"",
     );
     let flat = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature() == 0.0;
     found.require(
         flat == case.mesh.plane_strain,
         &["mesh.plane_strain", "bar.crown_radius", "disk.crown_radius", "model"],
-        || match flat {
+        match flat {
             true => {
                 "two bodies that are flat across touch along a line, which on half-spaces needs \
                  mesh.plane_strain = true"
             }
             false => "mesh.plane_strain = true must go with crown_radius = \"flat\" of disk and bar",
-        }
-        .into(),
+        },
         "for a line contact set mesh.plane_strain = true and both crown radii to \"flat\"; for an ellipse give a \
          crown_radius, and mesh.plane_strain = false",
     );
     found.require(
         case.drive.spin == 0.0 || !case.mesh.plane_strain,
         &["drive.spin", "mesh.plane_strain"],
-        || {
-            format!(
-                "drive.spin = {} does not go with mesh.plane_strain = true: a line contact has no centre to turn about",
-                number(case.drive.spin)
-            )
-        },
+        format_args!(
+            "drive.spin = {} does not go with mesh.plane_strain = true: a line contact has no centre to turn about",
+            number(case.drive.spin)
+        ),
         "leave it out",
     );
 }
@@ -67,10 +61,11 @@ pub(super) fn check_zone(case: &Case, found: &mut Findings<'_>) {
         found.require(
             zone.size <= value,
             &["mesh.zone.size", key],
-            || {
-                let (size, value) = (number(zone.size), number(value));
-                format!("mesh.zone.size = {size} m must be at most {key} = {value} m")
-            },
+            format_args!(
+                "mesh.zone.size = {} m must be at most {key} = {} m",
+                number(zone.size),
+                number(value)
+            ),
             "the spacing of the points must not exceed the fine zone: make mesh.zone.size smaller, for example 1e-3",
         );
     }
@@ -79,12 +74,10 @@ pub(super) fn check_zone(case: &Case, found: &mut Findings<'_>) {
     found.require(
         points <= MOST_POINTS,
         &["mesh.zone.size"],
-        || {
-            format!(
-                "mesh.zone.size = {} m makes about {points:.1e} points on a surface, more than {MOST_POINTS:.0e}",
-                number(zone.size)
-            )
-        },
+        format_args!(
+            "mesh.zone.size = {} m makes about {points:.1e} points on a surface, more than {MOST_POINTS:.0e}",
+            number(zone.size)
+        ),
         "give the spacing in metres: 1e-3 for 1 mm",
     );
 }

@@ -2,9 +2,9 @@
 
 use super::Findings;
 use crate::case::hertz::{hertz, patch_shape};
-use crate::case::key::number;
 use crate::case::schema::{Case, Symmetry};
-use crate::case::units::digits;
+use crate::case::value::digits;
+use crate::case::value::number;
 use contact::patch::PatchShape;
 
 /// The keys that move the disk sideways, what they say, and their unit.
@@ -51,7 +51,7 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
             found.require(
                 !applies,
                 &[key, other],
-                || format!("{key} = {}{unit} does not go with {why}", number(value)),
+                format_args!("{key} = {}{unit} does not go with {why}", number(value)),
                 &format!("{remedy}, or leave {key} out"),
             );
         }
@@ -68,16 +68,14 @@ pub(super) fn check_drift(case: &Case, found: &mut Findings<'_>) {
     found.require(
         reach <= half * (1.0 + 1e-12),
         &[key, "drive.spin", "mesh.zone.width", "time.roll"],
-        || {
-            format!(
-                "the disk drifts by up to {} mm (drive.lateral_creepage, drive.spin), so that the patch (half width {} mm) \
-                 reaches {} mm to the side, but half of mesh.zone.width is {} mm",
-                digits(1e3 * drift),
-                digits(1e3 * b),
-                digits(1e3 * reach),
-                digits(1e3 * half)
-            )
-        },
+        format_args!(
+            "the disk drifts by up to {} mm (drive.lateral_creepage, drive.spin), so that the patch (half width {} mm) \
+             reaches {} mm to the side, but half of mesh.zone.width is {} mm",
+            digits(1e3 * drift),
+            digits(1e3 * b),
+            digits(1e3 * reach),
+            digits(1e3 * half)
+        ),
         "widen the fine zone (mesh.zone.width), roll less (time.roll), or reduce drive.lateral_creepage or drive.spin",
     );
 }

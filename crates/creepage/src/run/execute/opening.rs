@@ -1,6 +1,5 @@
 //! Before a run begins: its folder is locked, its model is made, and it is found where the run goes on.
 
-use crate::case::load::inputs;
 use crate::case::schema::Case;
 use crate::run::checkpoint::State;
 use crate::run::error::RunError;
@@ -57,7 +56,7 @@ pub(crate) fn open<M, T: DeserializeOwned>(
     if point.is_none() {
         // A run may be begun anew from the `case.toml` in its own folder, which then is replaced by an equal one.
         if options.force && !(options.resume && resume::is_of(case, &options.folder(case))) {
-            folder::refuse_inputs(&options.folder(case), &inputs(case, &options.case.path))?;
+            folder::refuse_inputs(&options.folder(case), &case.inputs())?;
         }
         // Before the mesh is made, which takes time; the files of an earlier run are removed only after it.
         folder::check(&options.folder(case), replaces)?;
