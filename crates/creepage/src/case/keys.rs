@@ -69,8 +69,9 @@ pub fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<&
 pub fn meant_key(pattern: &str) -> String {
     let (section, name) = pattern.rsplit_once('.').unwrap_or(("", pattern));
     let here = names_in(section);
-    let elsewhere =
-        KEYS.iter().map(|key| key.path).find(|path| path.rsplit('.').next() == Some(name));
+    let paths = KEYS.iter().map(|key| key.path);
+    let same_name = paths.filter(|path| path.rsplit('.').next() == Some(name));
+    let elsewhere = same_name.min_by_key(|path| path.matches('.').count());
     let meant = nearest(name, here.iter().copied()).or(elsewhere);
     let meant = meant.map(|meant| format!("did you mean `{meant}`? ")).unwrap_or_default();
     let place =

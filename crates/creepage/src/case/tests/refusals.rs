@@ -74,6 +74,7 @@ fn a_long_chain_of_extends_is_refused() {
 fn unknown_keys_are_refused_with_a_suggestion() {
     refused(read(&format!("{SHORT}disk.radios = 1\n")), &[":5:", "disk.radios = 1", "`radius`"]);
     refused(read(&format!("{SHORT}radius = 1\n")), &["short.toml:5:", "`disk.radius`"]);
+    refused(read(&format!("{SHORT}young = 1\n")), &["short.toml:5:", "`material.young`"]);
     refused(read(&format!("{SHORT}frobnicate = 1\n")), &["frobnicate", "top level"]);
     refused(read(&format!("{SHORT}\"disk.radius\" = 1\n")), &["unknown key"]);
     refused(set(&["mesh.zone.sise=1"]), &["--set", "mesh.zone.sise", "`size`"]);
