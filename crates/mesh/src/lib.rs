@@ -10,6 +10,7 @@ mod bar;
 mod check;
 mod disk;
 mod error;
+pub mod geometry;
 mod grading;
 mod grid;
 mod half;
