@@ -121,7 +121,7 @@ impl Rolling {
         contact.follow(&fields.motion(0.0, self.dt));
         fields.gather_forces(contact.loaded().iter().copied(), &self.force);
         let step = fields.step(0.0, self.dt);
-        let free = FreeMotion { velocity: &|_, _| [0.0; 3] };
+        let free = FreeMotion { velocity: &|_, _| [0.0; 3].into() };
         let sums = contact.apply(&step.motion, &free, step.force);
         fields.scatter_forces(contact.loaded().iter().copied(), &mut self.force);
         sums

@@ -60,7 +60,7 @@ fn rolling(size: f64) -> Simulation {
     let mass = solid::lumped_mass(&mesh, &[STEEL.density; 2]);
     let (omega_max, _) = solid::element_frequency_bound(&mesh, &[STEEL; 2], ELEMENT);
     let dt = 0.67 * 2.0 / omega_max;
-    let (centre, omega) = ([0.0, 0.0, RADIUS], SPEED / RADIUS);
+    let (centre, omega) = ([0.0, 0.0, RADIUS].into(), SPEED / RADIUS);
     let spin = Spin::Creepage { free: omega, creepage: 2.4e-3, ramp: 0.74e-3 };
     let hub_nodes = &disk.node_sets["hub"];
     let mut hub = Hub::new(centre, hub_nodes, solid.reference(), &mass, 0.0, spin, Vertical::Held);

@@ -98,7 +98,7 @@ impl Rig {
         self.fields.gather_positions(&displacement);
         self.fields.gather_velocities(&velocity);
         let step = self.fields.step(0.0, DT);
-        self.contact.apply(&step.motion, step.force).force[0]
+        self.contact.apply(&step.motion, step.force).force[0].into()
     }
 }
 

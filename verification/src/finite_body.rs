@@ -169,7 +169,7 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let smooth = top.smooth.ok_or("the bar has no crown")?;
     let within = |x: [f64; 3]| x[0].abs() < reach[0] && x[1].abs() < reach[1];
     let tread = &disk.bodies[0].surfaces["zone"];
-    let points = Point::on_surface(&disk, tread, within, |x| -smooth.offset(x));
+    let points = Point::on_surface(&disk, tread, within, |x| -smooth.offset(x.into()));
     let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
     let condensed = |mesh: &Mesh, held: &str, nodes: &[u32]| {
         let held = mesh.bodies[0].node_sets[held].clone();

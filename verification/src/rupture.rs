@@ -252,8 +252,7 @@ fn rupture(h: f64) -> Result<Rupture, Cause> {
         contact.nodal(&mut table);
         monitor.read(&table, report.time, dt, &mut checks);
         let [on_upper, on_lower] = report.contact.force;
-        let sum = norm([0, 1, 2].map(|i| on_upper[i] + on_lower[i]));
-        worst(&mut checks.resultant, sum / report.contact.normal_force);
+        worst(&mut checks.resultant, (on_upper + on_lower).norm() / report.contact.normal_force);
     }
     checks.energy = simulation.ledger().balance_error();
     checks.slip = monitor.path.iter().fold(0.0, |most, slip| most.max(*slip));
@@ -319,15 +318,15 @@ impl Monitor {
         let at = NodeConditions::default();
         for (i, &row) in self.rows.iter().enumerate() {
             let (p, shear, s) = (table.pressure[row], table.shear[row], table.slip_velocity[row]);
-            let speed = norm(s);
+            let speed = s.norm();
             let strength = LAW.mu([self.path[i], 0.0], speed, &at) * p;
             let scale = LAW.mu_static * p;
             if table.state[row] == SLIPS_STATE {
-                worst(&mut checks.off_curve, (norm(shear) - strength).abs() / scale);
-                let against: f64 = (0..3).map(|k| -shear[k] * s[k]).sum();
-                worst(&mut checks.aside, (norm(shear) - against / speed).abs() / scale);
+                worst(&mut checks.off_curve, (shear.norm() - strength).abs() / scale);
+                let against = -shear.dot(&s);
+                worst(&mut checks.aside, (shear.norm() - against / speed).abs() / scale);
             } else {
-                worst(&mut checks.beyond, (norm(shear) - strength) / scale);
+                worst(&mut checks.beyond, (shear.norm() - strength) / scale);
             }
             worst(&mut checks.pressure, (p / (SCALE * PRESSURE) - 1.0).abs());
             if self.time[i].is_infinite() && speed > RUPTURED {
@@ -364,10 +363,6 @@ fn worst(most: &mut f64, value: f64) {
     if value > *most || value.is_nan() {
         *most = value;
     }
-}
-
-fn norm(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 pub(crate) fn run(size: Size) -> Outcome {
@@ -591,7 +586,7 @@ mod tests {
         simulation.contact().unwrap().nodal(&mut table);
         let mpa = 1e-6 / SCALE;
         let values = table.pressure.iter().zip(&table.shear);
-        places.into_iter().zip(values).map(|(x, (p, q))| (x, mpa * p, mpa * norm(*q))).collect()
+        places.into_iter().zip(values).map(|(x, (p, q))| (x, mpa * p, mpa * q.norm())).collect()
     }
 
     #[test]

@@ -11,6 +11,7 @@ use contact::{
 };
 use friction::{NodeConditions, NodeFriction};
 use mesh::{Face, Mesh, Padded, Surface};
+use nalgebra::Vector3;
 use std::error::Error;
 
 /// `mu = smooth + (rough - smooth) exp(-W/W_0)`, with the work of friction per area
@@ -87,8 +88,8 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
         let mut force = vec![Padded::ZERO; 16];
         // pressed down at its lower nodes
         force[..4].fill(Padded::new([0.0, 0.0, -0.25 * LOAD]));
-        let step = |v: Padded, inverse_mass: f64, force: [f64; 3]| {
-            [0, 1, 2].map(|i| v[i] + DT * inverse_mass * force[i])
+        let step = |v: Padded, inverse_mass: f64, force: Vector3<f64>| {
+            v.vector() + DT * inverse_mass * force
         };
         fields.gather_positions(&displacement);
         fields.gather_velocities(&velocity);
@@ -96,18 +97,16 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
         contact.follow(&fields.motion(time, DT));
         fields.gather_forces(fields.all(), &force);
         let TraceStep { motion, force: on_surfaces, .. } = fields.step(time, DT);
-        let free = |node: u32, force: [f64; 3]| {
+        let free = |node: u32, force: Vector3<f64>| {
             step(motion.velocity[node as usize], motion.inverse_mass[node as usize], force)
         };
         contact.apply(&motion, &FreeMotion { velocity: &free }, on_surfaces);
         fields.scatter_forces(fields.all(), &mut force);
         let moved: Vec<_> =
-            (0..16).map(|n| step(velocity[n], inverse_mass[n], force[n].xyz())).collect();
+            (0..16).map(|n| step(velocity[n], inverse_mass[n], force[n].vector())).collect();
         for ((v, u), moved) in velocity.iter_mut().zip(&mut displacement).zip(moved) {
-            *v = Padded::new(moved);
-            for i in 0..3 {
-                u[i] += DT * moved[i];
-            }
+            *v = moved.into();
+            *u += DT * moved;
         }
         speeds.push(velocity[0][0]);
     }

@@ -17,7 +17,8 @@ use crate::face::{Positions, Projection, shape, shape_gradients};
 use crate::point::{ContactPoint, Enforced};
 use crate::surface::{ContactSurface, MasterFace};
 use crate::symmetry::{in_plane, symmetric_tangents, tangent_in_plane};
-use crate::vector::{Vec3, add, axpy, cross, dot, frame, scale, sub, tangential};
+use mesh::geometry::{frame, tangential};
+use nalgebra::{Matrix3, Matrix3x2, UnitVector3, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -45,39 +46,42 @@ pub(crate) struct Share {
     pub node: u32,
     pub weight: f64,
     /// Derivatives of the weight along two directions of the surface.
-    pub gradient: [f64; 2],
+    pub gradient: Vector2<f64>,
 }
 
 /// The shares of the corners of a face at a point.
 pub(crate) fn face_shares(face: &MasterFace, xi: f64, eta: f64) -> [Share; 4] {
     let (weights, gradients) = (shape(xi, eta), shape_gradients(xi, eta));
-    [0, 1, 2, 3].map(|c| Share { node: face.local[c], weight: weights[c], gradient: gradients[c] })
+    [0, 1, 2, 3].map(|c| Share {
+        node: face.local[c],
+        weight: weights[c],
+        gradient: gradients[c].into(),
+    })
 }
 
-/// The projection of shares in the present configuration, and the tangents along their two directions.
+/// The projection of shares in the present configuration, and as columns the tangents along their two directions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MasterPoint {
-    pub x: Vec3,
-    pub tangents: [Vec3; 2],
+    pub x: Vector3<f64>,
+    pub tangents: Matrix3x2<f64>,
 }
 
 impl MasterPoint {
     #[inline]
     pub fn new(shares: &[Share], master: &ContactSurface, positions: &Positions<'_>) -> Self {
-        let (mut x, mut a1, mut a2) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+        let mut point = Self { x: Vector3::zeros(), tangents: Matrix3x2::zeros() };
         for share in shares {
             let node = positions.at(master.node(share.node));
-            x = axpy(x, share.weight, node);
-            a1 = axpy(a1, share.gradient[0], node);
-            a2 = axpy(a2, share.gradient[1], node);
+            point.x += share.weight * node;
+            point.tangents += node * share.gradient.transpose();
         }
-        Self { x, tangents: [a1, a2] }
+        point
     }
 
     /// The same under a node at `node`: on a plane of symmetry with the mirror image of the shares.
     #[inline]
     pub fn under(
-        node: Vec3,
+        node: Vector3<f64>,
         shares: &[Share],
         master: &ContactSurface,
         positions: &Positions<'_>,
@@ -86,21 +90,28 @@ impl MasterPoint {
         if !master.is_on_plane(node) {
             return point;
         }
-        Self { x: in_plane(point.x), tangents: symmetric_tangents(point.tangents) }
+        Self { x: in_plane(point.x), tangents: symmetric_tangents(&point.tangents) }
+    }
+
+    /// The normal of its facet, as long as the area of the parallelogram of its tangents (m^2).
+    #[inline]
+    pub fn facet(&self) -> Vector3<f64> {
+        self.tangents.column(0).cross(&self.tangents.column(1))
     }
 
     /// The frame in which the tangential force of a constraint with unit normal `n` is kept.
     #[inline]
-    pub fn frame(&self, n: Vec3, on_plane: bool) -> [Vec3; 2] {
-        frame(if on_plane { tangent_in_plane(n) } else { self.tangents[0] }, n)
+    pub fn frame(&self, n: UnitVector3<f64>, on_plane: bool) -> Matrix3x2<f64> {
+        frame(if on_plane { tangent_in_plane(n) } else { self.tangents.column(0).into() }, n)
     }
 
-    /// The duals of the tangents in the plane with unit normal `n`.
+    /// The tangents `a_a` and their duals `g^a`, `g^a . a_b = delta_ab`, in the plane with unit normal `n`:
+    /// `g^1 = a_2 x n / n . (a_1 x a_2)`, `g^2 = n x a_1 / n . (a_1 x a_2)`.
     #[inline]
-    pub fn duals(&self, n: Vec3) -> [Vec3; 2] {
-        let [a1, a2] = self.tangents.map(|a| tangential(a, n));
-        let per_area = 1.0 / dot(n, cross(a1, a2));
-        [scale(per_area, cross(a2, n)), scale(per_area, cross(n, a1))]
+    pub fn duals(&self, n: UnitVector3<f64>) -> Matrix3x2<f64> {
+        let [a1, a2] = [0, 1].map(|a| tangential(self.tangents.column(a).into(), n));
+        let per_area = 1.0 / n.dot(&a1.cross(&a2));
+        Matrix3x2::from_columns(&[per_area * a2.cross(&n), per_area * n.cross(&a1)])
     }
 }
 
@@ -111,7 +122,7 @@ pub(crate) struct MasterNode {
     pub node: u32,
     pub weight: f64,
     /// `d b_J`.
-    pub rotation: Vec3,
+    pub rotation: Vector3<f64>,
 }
 
 /// A contact point at which the conditions of contact and friction hold by Lagrange multipliers.
@@ -129,7 +140,7 @@ pub(crate) struct Multipliers {
     #[serde(skip)]
     on_plane: bool,
     /// Tangential frame that turns with the master.
-    pub frame: [Vec3; 2],
+    pub frame: Matrix3x2<f64>,
     /// Whether it slipped in the step before.
     pub slipped: bool,
 }
@@ -155,8 +166,8 @@ impl Constraint {
         &mut self,
         shares: &[Share],
         master_point: &MasterPoint,
-        n: Vec3,
-        x: Vec3,
+        n: UnitVector3<f64>,
+        x: Vector3<f64>,
         on_plane: bool,
         master_nodes: &mut Vec<MasterNode>,
     ) {
@@ -164,18 +175,16 @@ impl Constraint {
         self.enforcement.on_plane = on_plane;
         self.enforcement.frame = master_point.frame(n, on_plane);
         self.enforcement.master_nodes = [master_nodes.len() as u32, shares.len() as u32];
-        let [g1, g2] = master_point.duals(n);
-        let to_node = sub(x, master_point.x);
-        let beside = [dot(g1, to_node), dot(g2, to_node)];
-        let [a1, a2] = master_point.tangents;
-        let under = axpy(scale(beside[0], a1), beside[1], a2);
-        let distance = dot(n, sub(to_node, under));
+        let duals = master_point.duals(n);
+        let to_node = x - master_point.x;
+        let beside = duals.tr_mul(&to_node);
+        let distance = n.dot(&(to_node - master_point.tangents * beside));
         master_nodes.extend(shares.iter().map(|share| {
-            let [d1, d2] = share.gradient;
-            let rotation = axpy(scale(distance * d1, g1), distance * d2, g2);
+            let along = share.gradient.component_mul(&beside);
+            let rotation = duals * (distance * share.gradient);
             MasterNode {
                 node: share.node,
-                weight: share.weight + d1 * beside[0] + d2 * beside[1],
+                weight: share.weight + along.x + along.y,
                 // with its mirror image a master that turns about x does not turn on the plane
                 rotation: if on_plane { in_plane(rotation) } else { rotation },
             }
@@ -192,51 +201,53 @@ impl Constraint {
     #[inline]
     pub fn rates(
         &self,
-        slave: Vec3,
+        slave: Vector3<f64>,
         master_nodes: &[MasterNode],
-        velocity: impl Fn(u32) -> Vec3,
-    ) -> (f64, Vec3) {
+        velocity: impl Fn(u32) -> Vector3<f64>,
+    ) -> (f64, Vector3<f64>) {
         let mut w = slave;
-        let mut turn = [0.0; 3];
+        let mut turn = Vector3::zeros();
         for master_node in master_nodes {
             let v = velocity(master_node.node);
-            w = axpy(w, -master_node.weight, v);
-            turn = axpy(turn, dot(self.normal, v), master_node.rotation);
+            w -= master_node.weight * v;
+            turn += self.normal.dot(&v) * master_node.rotation;
         }
         if self.enforcement.on_plane {
             // with its mirror image the master does not move across the plane
             w = in_plane(w);
         }
-        let opening = dot(self.normal, w);
-        (opening, add(axpy(w, -opening, self.normal), turn))
+        let opening = self.normal.dot(&w);
+        (opening, w - opening * *self.normal + turn)
     }
 
     /// Force on the node of a master_node where `normal` and `friction` act on the slave (N).
     #[inline]
-    pub fn reaction(&self, master_node: &MasterNode, normal: f64, friction: Vec3) -> Vec3 {
-        let along = dot(master_node.rotation, friction) - master_node.weight * normal;
-        axpy(scale(-master_node.weight, friction), along, self.normal)
+    pub fn reaction(
+        &self,
+        master_node: &MasterNode,
+        normal: f64,
+        friction: Vector3<f64>,
+    ) -> Vector3<f64> {
+        let along = master_node.rotation.dot(&friction) - master_node.weight * normal;
+        along * *self.normal - master_node.weight * friction
     }
 }
 
 impl Constraint {
     /// The matrix `-weight + rotation n^T` that takes the velocity of the node of a master_node to its part of the relative velocity; its transpose takes
     /// a force on the slave to that on the node.
-    pub fn on_leg(&self, master_node: &MasterNode) -> [[f64; 3]; 3] {
-        let [n, rotation] = [self.normal, master_node.rotation];
-        [0, 1, 2].map(|i| {
-            [0, 1, 2]
-                .map(|j: usize| rotation[i] * n[j] - if i == j { master_node.weight } else { 0.0 })
-        })
+    pub fn on_leg(&self, master_node: &MasterNode) -> Matrix3<f64> {
+        let weight = Matrix3::from_diagonal_element(master_node.weight);
+        master_node.rotation * self.normal.transpose() - weight
     }
 
     /// A block between the forces of `on` and the relative velocity of this one, without what planes of symmetry hold.
-    pub fn within_plane(&self, on: &Self, mut block: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    pub fn within_plane(&self, on: &Self, mut block: Matrix3<f64>) -> Matrix3<f64> {
         if self.enforcement.on_plane {
-            block[1] = [0.0; 3];
+            block.row_mut(1).fill(0.0);
         }
         if on.enforcement.on_plane {
-            block.iter_mut().for_each(|row| row[1] = 0.0);
+            block.column_mut(1).fill(0.0);
         }
         block
     }

@@ -3,13 +3,14 @@
 use crate::renumber::Renumbering;
 use crate::{ContactState, ContactSums, Motion, NodalContact, StateError, Trace};
 use mesh::{Face, Padded};
+use nalgebra::Vector3;
 use std::fmt::Debug;
 
 /// The motion that a step would have without contact.
 #[derive(Clone, Copy)]
 pub struct FreeMotion<'a> {
     /// Velocity `v^{n+1/2}` (m/s) of a node of the trace under a force (N): the step's own update of velocities.
-    pub velocity: &'a (dyn Fn(u32, [f64; 3]) -> [f64; 3] + Sync),
+    pub velocity: &'a (dyn Fn(u32, Vector3<f64>) -> Vector3<f64> + Sync),
 }
 
 /// What a step asks.

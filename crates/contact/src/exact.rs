@@ -16,7 +16,7 @@
 
 mod implicit;
 
-pub use implicit::{Corrected, Matrix3};
+pub use implicit::Corrected;
 
 use crate::constraint::{Constraint, MasterNode, MasterPoint, Rows, face_shares, within};
 use crate::enforcement::{
@@ -33,11 +33,12 @@ use crate::search::{Listed, Search};
 use crate::snapshot::{Points, check_legs, check_points};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, add, axpy, dot, frame, norm, scale, sub};
 use crate::{BodyMaterial, ContactError, ContactState, ContactSums, Motion, StateError, Trace};
 use friction::slip_speed;
 use friction::{NodeConditions, NodeFriction, NodeHistory};
+use mesh::geometry::frame;
 use mesh::{Face, Mesh, Padded, Surface};
+use nalgebra::{Matrix3x2, Vector3};
 
 /// Sweeps end when no force changes by more than this part of the largest.
 const TOLERANCE: f64 = 1e-12;
@@ -107,8 +108,8 @@ pub struct ExactContact {
     integrated: usize,
     /// Velocity and `dt/m` of the nodes of each side, where `stamp` is that of this step; `dt/m` is zero in a direction
     /// in which a plane of symmetry holds a node.
-    velocity: [Vec<Vec3>; 2],
-    dt_by_mass: [Vec<Vec3>; 2],
+    velocity: [Vec<Vector3<f64>>; 2],
+    dt_by_mass: [Vec<Vector3<f64>>; 2],
     stamp: [Vec<u64>; 2],
     now: u64,
     /// What an implicit step works with.
@@ -150,8 +151,8 @@ impl ExactContact {
             master_nodes: Vec::new(),
             slid: Vec::new(),
             integrated: 0,
-            velocity: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
-            dt_by_mass: [0, 1].map(|s| vec![[0.0; 3]; zeros(s)]),
+            velocity: [0, 1].map(|s| vec![Vector3::zeros(); zeros(s)]),
+            dt_by_mass: [0, 1].map(|s| vec![Vector3::zeros(); zeros(s)]),
             stamp: [0, 1].map(|s| vec![0; zeros(s)]),
             now: 0,
             implicit: implicit::ImplicitStep::default(),
@@ -192,7 +193,7 @@ impl ExactContact {
             return true;
         }
         let (opening, slip) = self.rates_of(constraint, motion);
-        let speed = libm::hypot(opening, norm(slip));
+        let speed = libm::hypot(opening, slip.norm());
         constraint.sleep = sleep(constraint.gap, speed, self.search.margin, motion.dt);
         let may_close = constraint.gap < WATCHED * self.search.margin + 2.0 * motion.dt * speed;
         if !may_close {
@@ -207,8 +208,8 @@ impl ExactContact {
         &mut self,
         constraint: &mut Constraint,
         positions: &Positions<'_>,
-        x: Vec3,
-    ) -> Option<[Vec3; 2]> {
+        x: Vector3<f64>,
+    ) -> Option<Matrix3x2<f64>> {
         let master = &self.sides[1 - self.slave];
         let followed = constraint.project(master, positions, self.curvature, x);
         let projection = followed.projection?;
@@ -238,8 +239,8 @@ impl ExactContact {
         &mut self,
         constraint: &mut Constraint,
         positions: &Positions<'_>,
-        x: Vec3,
-    ) -> Option<[Vec3; 2]> {
+        x: Vector3<f64>,
+    ) -> Option<Matrix3x2<f64>> {
         let (mortar, means) = self.mortar.as_mut()?;
         let sides = [&self.sides[self.slave], &self.sides[1 - self.slave]];
         let mean = &mut means[constraint.slave as usize];
@@ -291,14 +292,15 @@ impl ExactContact {
         }
         let node = self.sides[side].node(local);
         self.stamp[side][i] = self.now;
-        self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].xyz());
+        self.velocity[side][i] = (free_motion.velocity)(node, force[node as usize].vector());
         let dt_by_mass = motion.dt * motion.inverse_mass[node as usize];
-        let held = self.sides[side].is_on_plane(motion.position[node as usize].xyz());
-        self.dt_by_mass[side][i] = [dt_by_mass, if held { 0.0 } else { dt_by_mass }, dt_by_mass];
+        let held = self.sides[side].is_on_plane(motion.position[node as usize].vector());
+        self.dt_by_mass[side][i] =
+            Vector3::new(dt_by_mass, if held { 0.0 } else { dt_by_mass }, dt_by_mass);
     }
 
     /// Rates at the velocities that the forces found so far give.
-    fn rates(&self, constraint: &Constraint) -> (f64, Vec3) {
+    fn rates(&self, constraint: &Constraint) -> (f64, Vector3<f64>) {
         let master = &self.velocity[1 - self.slave];
         let slave = self.velocity[self.slave][constraint.slave as usize];
         constraint.rates(slave, &self.master_nodes[constraint.master_nodes()], |node| {
@@ -307,9 +309,9 @@ impl ExactContact {
     }
 
     /// Rates at the velocities of a motion.
-    fn rates_of(&self, constraint: &Constraint, motion: &Motion<'_>) -> (f64, Vec3) {
+    fn rates_of(&self, constraint: &Constraint, motion: &Motion<'_>) -> (f64, Vector3<f64>) {
         let (own, master) = (&self.sides[self.slave], &self.sides[1 - self.slave]);
-        let at = |node: u32| motion.velocity[node as usize].xyz();
+        let at = |node: u32| motion.velocity[node as usize].vector();
         let slave = at(own.node(constraint.slave));
         constraint.rates(slave, &self.master_nodes[constraint.master_nodes()], |node| {
             at(master.node(node))
@@ -328,18 +330,15 @@ impl ExactContact {
     }
 
     /// Adds what the forces of a constraint change in the velocities.
-    fn push(&mut self, constraint: &Constraint, normal: f64, friction: Vec3) {
+    fn push(&mut self, constraint: &Constraint, normal: f64, friction: Vector3<f64>) {
         let (i, own) = (constraint.slave as usize, self.slave);
-        let on_slave = axpy(friction, normal, constraint.normal);
-        self.velocity[own][i] = pushed(self.velocity[own][i], self.dt_by_mass[own][i], on_slave);
+        let on_slave = friction + normal * *constraint.normal;
+        self.velocity[own][i] += self.dt_by_mass[own][i].component_mul(&on_slave);
         let (velocity, dt_by_mass) = (&mut self.velocity[1 - own], &self.dt_by_mass[1 - own]);
         for master_node in &self.master_nodes[constraint.master_nodes()] {
             let node = master_node.node as usize;
-            velocity[node] = pushed(
-                velocity[node],
-                dt_by_mass[node],
-                constraint.reaction(master_node, normal, friction),
-            );
+            let reaction = constraint.reaction(master_node, normal, friction);
+            velocity[node] += dt_by_mass[node].component_mul(&reaction);
         }
     }
 
@@ -368,14 +367,14 @@ impl ExactContact {
         let needed = -free_gap / (motion.dt * constraint.enforcement.delassus);
         // not `max`: what is no number must reach the guards
         constraint.normal_force = if needed <= 0.0 { 0.0 } else { needed };
-        let free = axpy(slip, -constraint.enforcement.delassus, frictional);
+        let free = slip - constraint.enforcement.delassus * frictional;
         (constraint.friction, constraint.state) =
             self.return_mapping(constraint, free, positions, motion);
-        let change = sub(constraint.friction, frictional);
+        let change = constraint.friction - frictional;
         self.push(constraint, constraint.normal_force - pressed, change);
         [
-            (constraint.normal_force - pressed).abs() + norm(change),
-            constraint.normal_force.max(norm(constraint.friction)),
+            (constraint.normal_force - pressed).abs() + change.norm(),
+            constraint.normal_force.max(constraint.friction.norm()),
         ]
     }
 
@@ -384,17 +383,17 @@ impl ExactContact {
     fn return_mapping(
         &self,
         constraint: &mut Constraint,
-        free: Vec3,
+        free: Vector3<f64>,
         positions: &Positions<'_>,
         motion: &Motion<'_>,
-    ) -> (Vec3, State) {
+    ) -> (Vector3<f64>, State) {
         if constraint.normal_force == 0.0 {
-            return ([0.0; 3], State::Open);
+            return (Vector3::zeros(), State::Open);
         }
         let at = self.at(constraint, positions, motion);
-        let speed = norm(free);
+        let speed = free.norm();
         let c = constraint.enforcement.delassus * constraint.normal_force;
-        let sticking = (scale(-1.0 / constraint.enforcement.delassus, free), State::Stick);
+        let sticking = (free * (-1.0 / constraint.enforcement.delassus), State::Stick);
         if self.law.is_implicit() {
             let curve = |s: f64| {
                 (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
@@ -411,7 +410,7 @@ impl ExactContact {
                 return sticking;
             }
         }
-        (scale(-constraint.mu * constraint.normal_force / speed, free), State::Slip)
+        (free * (-constraint.mu * constraint.normal_force / speed), State::Slip)
     }
 
     /// Takes the velocities without contact of the nodes of a constraint, its own block of the Delassus
@@ -506,12 +505,12 @@ impl ExactContact {
         let (opening, slip) = self.rates(constraint);
         let before = self.rates_of(constraint, motion);
         // the trapezoidal work of the force, in halves around t^n
-        let work = |(opening, slip): (f64, Vec3)| {
-            0.5 * motion.dt * (constraint.normal_force * opening + dot(constraint.friction, slip))
+        let work = |(opening, slip): (f64, Vector3<f64>)| {
+            0.5 * motion.dt * (constraint.normal_force * opening + constraint.friction.dot(&slip))
         };
         // round-off of a node that sticks is no friction
         let slips = constraint.state == State::Slip;
-        let heat = if slips { -motion.dt * dot(constraint.friction, slip) } else { 0.0 };
+        let heat = if slips { -motion.dt * constraint.friction.dot(&slip) } else { 0.0 };
         sums.friction_ahead.add(heat);
         sums.damping_work.add(-work(before));
         sums.damping_ahead.add(-(work((opening, slip)) + heat));
@@ -524,7 +523,7 @@ impl ExactContact {
     fn finish(
         &self,
         constraint: &mut Constraint,
-        slip: Vec3,
+        slip: Vector3<f64>,
         positions: &Positions<'_>,
         motion: &Motion<'_>,
         force: &mut [Padded],
@@ -536,7 +535,7 @@ impl ExactContact {
         sums.push(1 - own, on_masters);
         constraint.keep_in(constraint.enforcement.frame);
         constraint.slip_velocity = slip;
-        constraint.slip = axpy(constraint.slip, motion.dt, slip);
+        constraint.slip += motion.dt * slip;
         sums.normal_force.add(constraint.normal_force);
         sums.meet(constraint.mu);
         let other = &mut sums.other;
@@ -550,16 +549,16 @@ impl ExactContact {
     }
 
     /// Adds the forces of a constraint to `force`; returns those on the slave and on the master.
-    fn add_force(&self, constraint: &Constraint, force: &mut [Padded]) -> [Vec3; 2] {
+    fn add_force(&self, constraint: &Constraint, force: &mut [Padded]) -> [Vector3<f64>; 2] {
         let own = self.slave;
-        let on_slave = axpy(constraint.friction, constraint.normal_force, constraint.normal);
-        add_to(&mut force[self.sides[own].node(constraint.slave) as usize], on_slave);
-        let mut on_masters = [0.0; 3];
+        let on_slave = constraint.friction + constraint.normal_force * *constraint.normal;
+        force[self.sides[own].node(constraint.slave) as usize] += on_slave;
+        let mut on_masters = Vector3::zeros();
         for master_node in &self.master_nodes[constraint.master_nodes()] {
             let on_leg =
                 constraint.reaction(master_node, constraint.normal_force, constraint.friction);
-            add_to(&mut force[self.sides[1 - own].node(master_node.node) as usize], on_leg);
-            on_masters = add(on_masters, on_leg);
+            force[self.sides[1 - own].node(master_node.node) as usize] += on_leg;
+            on_masters += on_leg;
         }
         [on_slave, on_masters]
     }
@@ -568,7 +567,7 @@ impl ExactContact {
     fn is_non_unique(
         &self,
         constraint: &Constraint,
-        slip: Vec3,
+        slip: Vector3<f64>,
         positions: &Positions<'_>,
         motion: &Motion<'_>,
     ) -> bool {
@@ -576,7 +575,7 @@ impl ExactContact {
             return false;
         }
         let at = self.at(constraint, positions, motion);
-        let free = norm(axpy(slip, -constraint.enforcement.delassus, constraint.friction));
+        let free = (slip - constraint.enforcement.delassus * constraint.friction).norm();
         let curve = |s: f64| {
             (self.law.mu(constraint.memory, s, &at), self.law.slope(constraint.memory, s, &at))
         };
@@ -759,16 +758,5 @@ impl ContactRestart for ExactContact {
         self.constraints[own].clone_from(constraints);
         self.sides.iter_mut().for_each(|side| side.origin = state.origin);
         self.search.restore(&state.search, &self.sides)
-    }
-}
-
-/// A velocity after a force, with `dt/m` in each direction.
-fn pushed(velocity: Vec3, dt_by_mass: Vec3, force: Vec3) -> Vec3 {
-    [0, 1, 2].map(|i| velocity[i] + dt_by_mass[i] * force[i])
-}
-
-fn add_to(force: &mut Padded, by: Vec3) {
-    for i in 0..3 {
-        force[i] += by[i];
     }
 }

@@ -2,9 +2,11 @@
 //! surface beyond the facets, and the walk from face to face.
 
 use crate::surface::{ContactSurface, Corner, NONE};
-use crate::symmetry::{in_plane, tangent_in_plane, unit_in_plane};
-use crate::vector::{Vec3, axpy, cross, dot, norm, scale, sub};
+use crate::symmetry::{direction_in_plane, in_plane, tangent_in_plane};
+use mesh::geometry::{adjugate, direction};
 use mesh::{Padded, SmoothSurface};
+use nalgebra::{Matrix2, UnitVector3, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
 
 /// Newton's corrections below this (in face coordinates) end the iteration: the next would be
 /// below round-off, since convergence is quadratic on a facet and gains the factor
@@ -44,47 +46,36 @@ pub(crate) struct Positions<'a>(pub &'a [Padded]);
 
 impl Positions<'_> {
     #[inline(always)]
-    pub fn at(&self, node: u32) -> Vec3 {
-        self.0[node as usize].xyz()
+    pub fn at(&self, node: u32) -> Vector3<f64> {
+        self.0[node as usize].vector()
     }
 }
 
 /// `x = c + a xi + b eta + t xi eta`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bilinear {
-    c: Vec3,
-    a: Vec3,
-    b: Vec3,
-    t: Vec3,
+    c: Vector3<f64>,
+    a: Vector3<f64>,
+    b: Vector3<f64>,
+    t: Vector3<f64>,
 }
 
 impl Bilinear {
     #[inline(always)]
-    pub fn through(x: [Vec3; 4]) -> Self {
-        let mut s = Self { c: [0.0; 3], a: [0.0; 3], b: [0.0; 3], t: [0.0; 3] };
-        for i in 0..3 {
-            let (p, q) = (x[0][i] + x[2][i], x[1][i] + x[3][i]);
-            let (d, e) = (x[2][i] - x[0][i], x[1][i] - x[3][i]);
-            s.c[i] = 0.25 * (p + q);
-            s.a[i] = 0.25 * (d + e);
-            s.b[i] = 0.25 * (d - e);
-            s.t[i] = 0.25 * (p - q);
-        }
-        s
+    pub fn through(x: [Vector3<f64>; 4]) -> Self {
+        let (p, q) = (x[0] + x[2], x[1] + x[3]);
+        let (d, e) = (x[2] - x[0], x[1] - x[3]);
+        Self { c: 0.25 * (p + q), a: 0.25 * (d + e), b: 0.25 * (d - e), t: 0.25 * (p - q) }
     }
 
     #[inline(always)]
-    fn point(&self, xi: f64, eta: f64) -> Vec3 {
-        let mut x = [0.0; 3];
-        for i in 0..3 {
-            x[i] = self.c[i] + self.a[i] * xi + (self.b[i] + self.t[i] * xi) * eta;
-        }
-        x
+    fn point(&self, xi: f64, eta: f64) -> Vector3<f64> {
+        self.c + xi * self.a + eta * (self.b + xi * self.t)
     }
 
     #[inline(always)]
-    fn tangents(&self, xi: f64, eta: f64) -> [Vec3; 2] {
-        [axpy(self.a, eta, self.t), axpy(self.b, xi, self.t)]
+    fn tangents(&self, xi: f64, eta: f64) -> [Vector3<f64>; 2] {
+        [self.a + eta * self.t, self.b + xi * self.t]
     }
 }
 
@@ -92,11 +83,11 @@ impl Bilinear {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SurfacePoint {
     /// The point on the facet (m).
-    pub x: Vec3,
+    pub x: Vector3<f64>,
     /// Outward unit normal of the exact surface, or of the facet.
-    pub normal: Vec3,
+    pub normal: UnitVector3<f64>,
     /// First tangent of the facet (m).
-    pub tangent: Vec3,
+    pub tangent: Vector3<f64>,
     /// Distance of the exact surface from the facet along `normal` (m).
     pub offset: f64,
 }
@@ -154,78 +145,75 @@ impl<'a> FaceGeometry<'a> {
         self.evaluate(self.current.point(xi, eta), xi, eta).0
     }
 
-    /// The surface at `(xi, eta)` and Newton's correction towards the projection of `node`.
+    /// The surface at `(xi, eta)` and Newton's correction towards the projection of `node`: `H^-1 r` with the residual
+    /// `r_a = a_a . d - (n_f . d / nu) N_s . A_a` and its gradient `H_ab = a_a . a_b - d . a_a,b`, for `d = x_s - x_m`.
     #[inline(always)]
-    fn evaluate(&self, node: Vec3, xi: f64, eta: f64) -> (SurfacePoint, [f64; 2]) {
+    fn evaluate(&self, node: Vector3<f64>, xi: f64, eta: f64) -> (SurfacePoint, Vector2<f64>) {
         let x = self.current.point(xi, eta);
         let plane = TangentPlane::of(&self.current, xi, eta);
-        let TangentPlane { tangents: [a1, a2], area, normal: n_f, metric: [g11, g12, g22] } = plane;
-        let d = sub(node, x);
-        let (mut r1, mut r2) = (dot(a1, d), dot(a2, d));
+        let TangentPlane { tangents: [a1, a2], area, normal: n_f, metric } = plane;
+        let d = node - x;
+        let mut residual = Vector2::new(a1.dot(&d), a2.dot(&d));
         let mut normal = n_f;
         let mut offset = 0.0;
         if let Some((reference, smooth)) = &self.exact {
             let inclination = Inclination::of(smooth, reference, xi, eta);
-            let Inclination { nu, along: [t1, t2] } = inclination;
             offset = smooth.offset(reference.point(xi, eta));
-            let lambda = dot(d, n_f) / nu;
-            r1 -= lambda * t1;
-            r2 -= lambda * t2;
+            residual -= n_f.dot(&d) / inclination.nu * inclination.along;
             normal = plane.inclined(&inclination);
         }
-        let mut h12 = g12 - dot(d, self.current.t);
-        let mut det = g11 * g22 - h12 * h12;
+        let twist = d.dot(&self.current.t);
+        let mut gradient = metric - Matrix2::new(0.0, twist, twist, 0.0);
+        let mut det = gradient.determinant();
         // far from the projection the second derivative can lead astray; then as if the face did not twist
         if det < FAR * (area * area) {
-            (h12, det) = (g12, area * area);
+            (gradient, det) = (metric, area * area);
         }
-        let per_det = 1.0 / det;
-        let correction = [(g22 * r1 - h12 * r2) * per_det, (g11 * r2 - h12 * r1) * per_det];
+        let correction = adjugate(&gradient) * residual * (1.0 / det);
         (SurfacePoint { x, normal, tangent: a1, offset }, correction)
     }
 }
 
 /// The tangents `a_a` of a facet at a point, its unit normal `n_f` and its metric `a_a . a_b`.
 struct TangentPlane {
-    tangents: [Vec3; 2],
+    tangents: [Vector3<f64>; 2],
     /// Of the parallelogram of the tangents (m^2).
     area: f64,
-    normal: Vec3,
-    /// `g_11`, `g_12`, `g_22` (m^2).
-    metric: [f64; 3],
+    normal: UnitVector3<f64>,
+    /// `g_ab` (m^2).
+    metric: Matrix2<f64>,
 }
 
 impl TangentPlane {
     #[inline(always)]
     fn of(facet: &Bilinear, xi: f64, eta: f64) -> Self {
         let [a1, a2] = facet.tangents(xi, eta);
-        let facet = cross(a1, a2);
-        let area = norm(facet);
-        let metric = [dot(a1, a1), dot(a1, a2), dot(a2, a2)];
-        Self { tangents: [a1, a2], area, normal: scale(1.0 / area, facet), metric }
+        let facet = a1.cross(&a2);
+        let area = facet.norm();
+        let g12 = a1.dot(&a2);
+        let metric = Matrix2::new(a1.dot(&a1), g12, g12, a2.dot(&a2));
+        let normal = UnitVector3::new_unchecked(facet * (1.0 / area));
+        Self { tangents: [a1, a2], area, normal, metric }
     }
 
     /// The normal `normalise(nu n_f + (N_s.A_a) g^a)` of the exact surface.
     #[inline(always)]
-    fn inclined(&self, inclination: &Inclination) -> Vec3 {
-        let Self { tangents: [a1, a2], metric: [g11, g12, g22], .. } = *self;
-        let [t1, t2] = inclination.along;
+    fn inclined(&self, inclination: &Inclination) -> UnitVector3<f64> {
+        let [a1, a2] = self.tangents;
         let per_area = 1.0 / self.area;
         // Dual components: t_a g^a = w^a a_a with w = g^-1 t, det g = area^2.
-        let w1 = (g22 * t1 - g12 * t2) * (per_area * per_area);
-        let w2 = (g11 * t2 - g12 * t1) * (per_area * per_area);
-        let normal = axpy(axpy(scale(inclination.nu, self.normal), w1, a1), w2, a2);
-        scale(1.0 / norm(normal), normal)
+        let w = adjugate(&self.metric) * inclination.along * (per_area * per_area);
+        direction(inclination.nu * *self.normal + w.x * a1 + w.y * a2)
     }
 }
 
 /// How the exact surface is inclined to a facet at a point, in the reference configuration.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(crate) struct Inclination {
     /// `N_s . N_f`.
-    nu: f64,
+    pub nu: f64,
     /// `N_s . A_a` (m).
-    along: [f64; 2],
+    pub along: Vector2<f64>,
 }
 
 impl Inclination {
@@ -233,8 +221,8 @@ impl Inclination {
     fn of(smooth: &SmoothSurface, reference: &Bilinear, xi: f64, eta: f64) -> Self {
         let [b1, b2] = reference.tangents(xi, eta);
         let n_s = smooth.normal(reference.point(xi, eta));
-        let facet = cross(b1, b2);
-        Self { nu: dot(n_s, facet) / norm(facet), along: [dot(n_s, b1), dot(n_s, b2)] }
+        let facet = b1.cross(&b2);
+        Self { nu: n_s.dot(&facet) / facet.norm(), along: Vector2::new(n_s.dot(&b1), n_s.dot(&b2)) }
     }
 
     /// That at a corner of a face, where the surface has an exact one.
@@ -253,7 +241,7 @@ pub(crate) fn corner_normal(
     corner: &Corner,
     positions: &Positions<'_>,
     curvature: bool,
-) -> Vec3 {
+) -> UnitVector3<f64> {
     let [xi, eta] = CORNERS[usize::from(corner.number)];
     let facet = surface.faces[corner.face as usize].facet(positions);
     let plane = TangentPlane::of(&facet, xi, eta);
@@ -274,7 +262,7 @@ pub(crate) struct Followed {
 
 /// The point of the surface with its mirror image, for a point of its half on the plane. Its tangent lies in the plane.
 fn symmetric_point(point: SurfacePoint) -> SurfacePoint {
-    let normal = unit_in_plane(point.normal);
+    let normal = direction_in_plane(*point.normal);
     SurfacePoint {
         x: in_plane(point.x),
         normal,
@@ -288,7 +276,7 @@ fn symmetric_projection(
     surface: &ContactSurface,
     positions: &Positions<'_>,
     curvature: bool,
-    node: Vec3,
+    node: Vector3<f64>,
     projection: Projection,
 ) -> Projection {
     let Projection { face, mut xi, mut eta, .. } = projection;
@@ -305,7 +293,7 @@ fn symmetric_projection(
     }
     let point = FaceGeometry::new(surface, face, positions, curvature).at(xi, eta);
     let point = symmetric_point(point);
-    let gap = dot(point.normal, sub(node, point.x)) - point.offset;
+    let gap = point.normal.dot(&(node - point.x)) - point.offset;
     Projection { face, xi, eta, point, gap }
 }
 
@@ -316,7 +304,7 @@ pub(crate) fn project(
     surface: &ContactSurface,
     positions: &Positions<'_>,
     curvature: bool,
-    node: Vec3,
+    node: Vector3<f64>,
     face: u32,
     xi: f64,
     eta: f64,
@@ -337,7 +325,7 @@ fn walk(
     surface: &ContactSurface,
     positions: &Positions<'_>,
     curvature: bool,
-    node: Vec3,
+    node: Vector3<f64>,
     face: u32,
     xi: f64,
     eta: f64,
@@ -404,10 +392,10 @@ fn enter(edge: usize, xi: f64, eta: f64, its_edge: u8) -> [f64; 2] {
 #[inline(always)]
 fn on_face(
     geometry: &FaceGeometry<'_>,
-    node: Vec3,
+    node: Vector3<f64>,
     face: u32,
     [mut xi, mut eta]: [f64; 2],
-    first: Option<(SurfacePoint, [f64; 2])>,
+    first: Option<(SurfacePoint, Vector2<f64>)>,
 ) -> Option<Projection> {
     let mut evaluated = match first {
         Some(known) => known,
@@ -415,15 +403,15 @@ fn on_face(
     };
     let mut stopped = 0;
     for _ in 0..ROUNDS {
-        let (point, [d_xi, d_eta]) = evaluated;
-        let to = [xi + d_xi, eta + d_eta];
+        let (point, correction) = evaluated;
+        let to = [xi + correction.x, eta + correction.y];
         if !to.iter().all(|c| c.is_finite()) {
             return None;
         }
         [xi, eta] = to.map(|c| c.clamp(-REACH, REACH));
         stopped += usize::from([xi, eta] != to);
-        if stopped == STOPS || d_xi.abs() < CONVERGED && d_eta.abs() < CONVERGED {
-            let gap = dot(point.normal, sub(node, point.x)) - point.offset;
+        if stopped == STOPS || correction.amax() < CONVERGED {
+            let gap = point.normal.dot(&(node - point.x)) - point.offset;
             return Some(Projection { face, xi, eta, point, gap });
         }
         evaluated = geometry.evaluate(node, xi, eta);
@@ -462,11 +450,14 @@ mod tests {
             let x = (f64::from(i) / 20.0 - 0.975) * (0.9 + 1.1 * y);
             for (face, xi) in [(0, -0.9), (0, 0.9), (1, -0.9), (1, 0.9)] {
                 for eta in [-0.9, 0.9] {
-                    let node = [x, y, height + 0.01];
+                    let node = Vector3::new(x, y, height + 0.01);
                     let found = project(&surface, &positions, false, node, face, xi, eta);
                     let found = found.projection.unwrap();
                     assert!((found.gap - 0.01).abs() < 1e-12, "{node:?} from {face}: {found:?}");
-                    assert!(norm(sub(found.point.x, [x, y, height])) < 1e-8, "{found:?}");
+                    assert!(
+                        (found.point.x - Vector3::new(x, y, height)).norm() < 1e-8,
+                        "{found:?}"
+                    );
                 }
             }
         }
@@ -474,14 +465,14 @@ mod tests {
 
     #[test]
     fn over_the_ridge_of_a_symmetric_roof_the_normal_is_upright_and_no_lever_crosses_the_plane() {
-        let node = [1.3, 0.0, 0.01];
+        let node = Vector3::new(1.3, 0.0, 0.01);
         for (symmetric, normal_y) in [(true, 0.0), (false, 0.2 / libm::hypot(1.0, 0.2))] {
             let (surface, nodes) = roof(symmetric);
             let positions = Positions(&nodes);
             let found = project(&surface, &positions, false, node, 1, 0.0, 0.0).projection.unwrap();
             assert!((found.point.normal[1] - normal_y).abs() < 1e-12, "{symmetric}: {found:?}");
             if symmetric {
-                assert_eq!([found.point.x[1], found.point.tangent[1]], [0.0; 2]);
+                assert_eq!([found.point.x.y, found.point.tangent.y], [0.0; 2]);
                 assert!((found.gap - 0.01).abs() < 1e-15 && (found.point.x[0] - 1.3).abs() < 1e-12);
             }
         }
@@ -498,7 +489,7 @@ mod tests {
             let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
             let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize]));
             let nodes: Vec<Padded> = nodes.collect();
-            let node = Padded::new([1.3, 0.0, 0.01]).xyz();
+            let node = Vector3::new(1.3, 0.0, 0.01);
             let found = project(&surface, &Positions(&nodes), false, node, 1, 0.0, 0.0);
             let found = found.projection.unwrap();
             assert!((found.gap - 0.01).abs() < 1e-15, "{turn}: {found:?}");

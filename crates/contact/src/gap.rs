@@ -1,5 +1,7 @@
 //! The gap of one slave.
 
+use nalgebra::UnitVector3;
+
 /// A slave node over its projection on the master surface.
 ///
 /// To first order its gap changes by `n . (u_s - sum w_J u_J)`, with the nodes `J` of the master that its
@@ -15,7 +17,7 @@ pub struct Gap {
     /// [`GapFunction`](crate::GapFunction) it is continuous over the surface: the mean of the facets' normals at each
     /// corner, interpolated, or the mortar function's mean; from
     /// [`PenaltyContact::springs`](crate::PenaltyContact::springs) it is the facet's.
-    pub normal: [f64; 3],
+    pub normal: UnitVector3<f64>,
     /// Gap (m), negative where the slave has penetrated.
     pub gap: f64,
     /// Tributary area of the slave in the reference configuration (m^2).

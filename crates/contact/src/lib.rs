@@ -39,14 +39,13 @@ mod symmetry;
 #[cfg(test)]
 mod tests;
 mod trace;
-mod vector;
 
 pub use constraint::Rows;
 pub use enforcement::{
     Contact, ContactRenumbering, ContactRestart, ContactStep, ContactTables, FreeMotion,
 };
 pub use error::ContactError;
-pub use exact::{Corrected, ExactContact, ExactSettings, Matrix3};
+pub use exact::{Corrected, ExactContact, ExactSettings};
 pub use gap::Gap;
 pub use gap_function::GapFunction;
 pub use method::Method;

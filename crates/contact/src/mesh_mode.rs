@@ -6,6 +6,7 @@
 //! the square of the element's size), 1 for slip that only alternates, and 1/2 where the slip of each node
 //! knows nothing of its neighbours'. Along a line such slip looks like any other: no spectrum tells it apart.
 
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Part of the slip beyond which it alternates: half of that of nodes that know nothing of each other.
@@ -33,14 +34,14 @@ impl MeshMode {
         &mut self,
         weight: f64,
         faces: &[[u32; 4]],
-        slip: &[[f64; 3]],
+        slip: &[impl Copy + Into<Vector3<f64>>],
         in_contact: impl Fn(usize) -> bool,
     ) {
         for face in faces.iter().map(|face| face.map(|node| node as usize)) {
             if !face.iter().all(|&node| in_contact(node)) {
                 continue;
             }
-            let [a, b, c, d] = face.map(|node| slip[node]);
+            let [a, b, c, d] = face.map(|node| slip[node].into());
             for i in 0..3 {
                 let mode = 0.25 * (a[i] - b[i] + c[i] - d[i]);
                 self.alternating += weight * mode * mode;

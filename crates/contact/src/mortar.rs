@@ -29,12 +29,13 @@
 //! gradients move the weights on to the node. A node that has lost more than [`LOST`] of its area is open.
 
 use crate::constraint::{MasterPoint, Share, face_shares, within};
-use crate::face::{FaceGeometry, Positions, Projection, project, shape};
-use crate::segment::{Point, Polygon, coordinates};
+use crate::face::{FaceGeometry, Inclination, Positions, Projection, project, shape};
+use crate::segment::{Polygon, coordinates};
 use crate::snapshot::StateError;
 use crate::surface::{ContactSurface, NONE};
-use crate::symmetry::unit_in_plane;
-use crate::vector::{Vec3, add, axpy, cross, dot, frame, norm, scale, sub};
+use crate::symmetry::direction_in_plane;
+use mesh::geometry::{direction, frame, tangential};
+use nalgebra::{Matrix3x2, Matrix4, UnitVector3, Vector2, Vector3, Vector4};
 use serde::{Deserialize, Serialize};
 
 /// Motion along the master, over the size of the smaller face, after which integrals are taken anew.
@@ -54,13 +55,13 @@ const NODES: usize = 16;
 pub(crate) struct Mean {
     /// Empty before the first integration.
     pub shares: Vec<Share>,
-    /// The master's normal, along that of the tangents of the shares and covariant along them.
-    normal: [f64; 3],
+    /// Of the master's normal to the tangents of the shares.
+    inclination: Inclination,
     /// Distance of the surfaces from their facets (m).
     beyond: f64,
     /// The far corner of a slave face (a node of the trace), and where it was in the frame of the master (m).
     far: u32,
-    seen: [f64; 2],
+    seen: Vector2<f64>,
     /// Motion along the master (m) after which integrals are taken anew.
     reach: f64,
 }
@@ -69,7 +70,7 @@ pub(crate) struct Mean {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeanKinematics {
     pub master_point: MasterPoint,
-    pub normal: Vec3,
+    pub normal: UnitVector3<f64>,
     pub gap: f64,
     /// How far the slave has moved along the master since the integration, over what is allowed.
     pub stale: f64,
@@ -86,40 +87,36 @@ impl Mean {
         &self,
         master: &ContactSurface,
         positions: &Positions<'_>,
-        x: Vec3,
+        x: Vector3<f64>,
     ) -> MeanKinematics {
         let master_point = MasterPoint::under(x, &self.shares, master, positions);
         let normal = self.turned(&master_point);
-        let to_node = sub(x, master_point.x);
-        let distance = dot(normal, to_node);
-        let moved = norm(axpy(to_node, -distance, normal));
-        let seen = seen(&master_point, normal, sub(positions.at(self.far), x));
-        let turned = libm::hypot(seen[0] - self.seen[0], seen[1] - self.seen[1]);
-        let stale = (moved + turned) / self.reach;
+        let to_node = x - master_point.x;
+        let distance = normal.dot(&to_node);
+        let moved = tangential(to_node, normal).norm();
+        let turned = seen(&master_point, normal, positions.at(self.far) - x) - self.seen;
+        let stale = (moved + libm::hypot(turned.x, turned.y)) / self.reach;
         MeanKinematics { master_point, normal, gap: distance - self.beyond, stale }
     }
 
     /// The normal, turned with the tangents: as the exact surface's over a facet in `FaceGeometry`.
-    fn turned(&self, master_point: &MasterPoint) -> Vec3 {
-        let [a1, a2] = master_point.tangents;
-        let facet = cross(a1, a2);
-        let n_f = scale(1.0 / norm(facet), facet);
-        let [g1, g2] = master_point.duals(n_f);
-        let [nu, t1, t2] = self.normal;
-        let n = axpy(axpy(scale(nu, n_f), t1, g1), t2, g2);
-        scale(1.0 / norm(n), n)
+    fn turned(&self, master_point: &MasterPoint) -> UnitVector3<f64> {
+        let n_f = direction(master_point.facet());
+        let duals = master_point.duals(n_f);
+        let Inclination { nu, along } = self.inclination;
+        direction(nu * *n_f + along.x * duals.column(0) + along.y * duals.column(1))
     }
 }
 
-fn seen(master_point: &MasterPoint, normal: Vec3, far: Vec3) -> [f64; 2] {
-    frame(master_point.tangents[0], normal).map(|e| dot(far, e))
+fn seen(master_point: &MasterPoint, normal: UnitVector3<f64>, far: Vector3<f64>) -> Vector2<f64> {
+    master_point.frame(normal, false).tr_mul(&far)
 }
 
 /// A point of integration on a slave face.
 #[derive(Clone, Copy, Debug)]
 struct Sample {
     /// Shape functions of the slave face.
-    shape: [f64; 4],
+    shape: Vector4<f64>,
     /// (m^2)
     weight: f64,
     projection: Projection,
@@ -137,28 +134,25 @@ pub(crate) struct Mortar {
 
 /// A slave face in its plane.
 struct Plane {
-    centre: Vec3,
-    /// Two directions in the plane and the outward normal.
-    axes: [Vec3; 3],
-    corners: [Point; 4],
+    centre: Vector3<f64>,
+    outward: UnitVector3<f64>,
+    frame: Matrix3x2<f64>,
+    corners: [Vector2<f64>; 4],
 }
 
 impl Plane {
     fn new(surface: &ContactSurface, face: u32, positions: &Positions<'_>) -> Self {
         let x = surface.faces[face as usize].nodes.map(|n| positions.at(n));
-        let centre = scale(0.25, x.iter().fold([0.0; 3], |s, x| add(s, *x)));
-        let outward = cross(sub(x[2], x[0]), sub(x[3], x[1]));
-        let n = scale(1.0 / norm(outward), outward);
-        let [e1, e2] = frame(sub(x[1], x[0]), n);
-        let mut plane = Self { centre, axes: [e1, e2, n], corners: [[0.0; 2]; 4] };
-        plane.corners = x.map(|x| plane.put(x));
-        plane
+        let centre = 0.25 * x.iter().sum::<Vector3<f64>>();
+        let outward = direction((x[2] - x[0]).cross(&(x[3] - x[1])));
+        let frame = frame(x[1] - x[0], outward);
+        let corners = x.map(|x| frame.tr_mul(&(x - centre)));
+        Self { centre, outward, frame, corners }
     }
 
     /// A point along the normal into the plane.
-    fn put(&self, x: Vec3) -> Point {
-        let d = sub(x, self.centre);
-        [dot(d, self.axes[0]), dot(d, self.axes[1])]
+    fn put(&self, x: Vector3<f64>) -> Vector2<f64> {
+        self.frame.tr_mul(&(x - self.centre))
     }
 }
 
@@ -193,24 +187,22 @@ impl Mortar {
         let near = projection.map_or(near, |projection| projection.face);
 
         // two directions for the gradients, whichever
-        let outward = own.around(slave).iter().fold([0.0; 3], |sum, corner| {
-            axpy(sum, -1.0, Plane::new(own, corner.face, positions).axes[2])
-        });
+        let faces = own.around(slave).iter().map(|corner| Plane::new(own, corner.face, positions));
+        let inward = faces.fold(Vector3::zeros(), |sum, face| sum - *face.outward);
         let on_plane = own.is_on_plane(x);
-        let unit = |a: Vec3| if on_plane { unit_in_plane(a) } else { scale(1.0 / norm(a), a) };
-        let n = unit(outward);
-        let along = if n[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
-        let directions = frame(along, n);
+        let unit = |a| if on_plane { direction_in_plane(a) } else { direction(a) };
+        let n = unit(inward);
+        let directions = frame(if n.x.abs() < 0.9 { Vector3::x() } else { Vector3::y() }, n);
 
-        let (mut area, mut normal, mut gap) = (0.0, [0.0; 3], 0.0);
+        let (mut area, mut normal, mut gap) = (0.0, Vector3::zeros(), 0.0);
         for corner in own.around(slave) {
             let whole = self.sample(sides, positions, corner.face, near);
             let q = dual(&self.samples, usize::from(corner.number), whole);
             for sample in &self.samples {
-                let psi: f64 = q.iter().zip(sample.shape).map(|(q, n)| q * n).sum();
+                let psi: f64 = q.iter().zip(&sample.shape).map(|(q, n)| q * n).sum();
                 let psi = psi * sample.weight;
                 area += psi;
-                normal = axpy(normal, psi, sample.projection.point.normal);
+                normal += psi * *sample.projection.point.normal;
                 gap += psi * sample.projection.gap;
                 gather(&mut mean.shares, &sample.projection, master, positions, &directions, psi);
             }
@@ -223,7 +215,7 @@ impl Mortar {
         }
         for share in &mut mean.shares {
             share.weight /= area;
-            share.gradient = share.gradient.map(|g| g / area);
+            share.gradient /= area;
         }
         self.settle(mean, sides, positions, slave, unit(normal), gap / area);
         mean.reach = STALE * f64::min(area.sqrt(), master.faces[near as usize].size);
@@ -237,24 +229,22 @@ impl Mortar {
         [own, master]: [&ContactSurface; 2],
         positions: &Positions<'_>,
         slave: u32,
-        n: Vec3,
+        n: UnitVector3<f64>,
         gap: f64,
     ) {
         let x = positions.at(own.node(slave));
         let master_point = MasterPoint::under(x, &mean.shares, master, positions);
-        let [g1, g2] = master_point.duals(n);
-        let to_node = sub(x, master_point.x);
-        let beside = [dot(g1, to_node), dot(g2, to_node)];
+        let beside = master_point.duals(n).tr_mul(&(x - master_point.x));
         for share in &mut mean.shares {
-            share.weight += share.gradient[0] * beside[0] + share.gradient[1] * beside[1];
+            share.weight += share.gradient.dot(&beside);
         }
         let master_point = MasterPoint::under(x, &mean.shares, master, positions);
-        mean.beyond = dot(n, sub(x, master_point.x)) - gap;
-        let [a1, a2] = master_point.tangents;
-        let facet = cross(a1, a2);
-        mean.normal = [dot(n, facet) / norm(facet), dot(n, a1), dot(n, a2)];
+        mean.beyond = n.dot(&(x - master_point.x)) - gap;
+        let facet = master_point.facet();
+        let along = master_point.tangents.tr_mul(&n);
+        mean.inclination = Inclination { nu: n.dot(&facet) / facet.norm(), along };
         mean.far = Self::far(own, slave);
-        mean.seen = seen(&master_point, n, sub(positions.at(mean.far), x));
+        mean.seen = seen(&master_point, n, positions.at(mean.far) - x);
     }
 
     /// The corner of a face around a slave node that lies across from it, a node of the trace.
@@ -302,17 +292,17 @@ impl Mortar {
             if meets {
                 let (samples, curvature) = (&mut self.samples, self.curvature);
                 segment.integrate(|p, weight| {
-                    let [xi, eta] = coordinates(&plane.corners, p);
-                    let at = geometry.at(xi, eta);
-                    let exact = axpy(at.x, at.offset, at.normal);
+                    let xi = coordinates(&plane.corners, p);
+                    let at = geometry.at(xi.x, xi.y);
+                    let exact = at.x + at.offset * *at.normal;
                     let start = coordinates(&x, p);
+                    let faces = |to: &Projection| to.point.normal.dot(&plane.outward) < 0.0;
                     let projection =
-                        project(master, positions, curvature, exact, other, start[0], start[1])
-                            .projection
-                            .filter(|projection| dot(projection.point.normal, plane.axes[2]) < 0.0);
-                    if let Some(projection) = projection {
+                        project(master, positions, curvature, exact, other, start.x, start.y);
+                    if let Some(projection) = projection.projection.filter(faces) {
                         covered += weight;
-                        samples.push(Sample { shape: shape(xi, eta), weight, projection });
+                        let shape = shape(xi.x, xi.y).into();
+                        samples.push(Sample { shape, weight, projection });
                     }
                 });
             }
@@ -338,7 +328,7 @@ impl Mortar {
         near: u32,
     ) -> u32 {
         let corners = own.faces[face as usize].nodes.map(|n| positions.at(n));
-        let centre = scale(0.25, corners.iter().fold([0.0; 3], |s, x| add(s, *x)));
+        let centre = 0.25 * corners.iter().sum::<Vector3<f64>>();
         [centre]
             .into_iter()
             .chain(corners)
@@ -348,36 +338,32 @@ impl Mortar {
 }
 
 /// Coefficients `q_b` of the function `psi = sum q_b N_b` of a corner: dual on a `whole` face, else `N`.
-fn dual(samples: &[Sample], corner: usize, whole: bool) -> [f64; 4] {
-    let mut q = [0.0; 4];
+fn dual(samples: &[Sample], corner: usize, whole: bool) -> Vector4<f64> {
+    let mut q = Vector4::zeros();
     if !whole {
         q[corner] = 1.0;
         return q;
     }
-    let mut m = [[0.0; 4]; 4];
+    let mut m = Matrix4::zeros();
     for s in samples {
         q[corner] += s.weight * s.shape[corner];
-        for (constraint, n) in m.iter_mut().zip(s.shape) {
-            for (entry, other) in constraint.iter_mut().zip(s.shape) {
-                *entry += s.weight * n * other;
-            }
-        }
+        m += s.weight * s.shape * s.shape.transpose();
     }
     // M q = D e_corner; M is positive definite
     for i in 0..4 {
         for j in i + 1..4 {
-            let factor = m[j][i] / m[i][i];
+            let factor = m[(j, i)] / m[(i, i)];
             for k in i..4 {
-                m[j][k] -= factor * m[i][k];
+                m[(j, k)] -= factor * m[(i, k)];
             }
             q[j] -= factor * q[i];
         }
     }
     for i in (0..4).rev() {
         for k in i + 1..4 {
-            q[i] -= m[i][k] * q[k];
+            q[i] -= m[(i, k)] * q[k];
         }
-        q[i] /= m[i][i];
+        q[i] /= m[(i, i)];
     }
     q
 }
@@ -388,22 +374,20 @@ fn gather(
     projection: &Projection,
     master: &ContactSurface,
     positions: &Positions<'_>,
-    directions: &[Vec3; 2],
+    directions: &Matrix3x2<f64>,
     psi: f64,
 ) {
     let [xi, eta] = within(projection);
     let corners = face_shares(&master.faces[projection.face as usize], xi, eta);
     let duals = MasterPoint::new(&corners, master, positions).duals(projection.point.normal);
-    let along = directions.map(|e| duals.map(|g| dot(e, g)));
+    let along = directions.tr_mul(&duals);
     for corner in corners {
-        let [d1, d2] = corner.gradient;
-        let gradient = along.map(|[g1, g2]| psi * (d1 * g1 + d2 * g2));
+        let gradient = psi * (along * corner.gradient);
         let weight = psi * corner.weight;
         match shares.iter_mut().find(|share| share.node == corner.node) {
             Some(share) => {
                 share.weight += weight;
-                share.gradient[0] += gradient[0];
-                share.gradient[1] += gradient[1];
+                share.gradient += gradient;
             }
             None => shares.push(Share { node: corner.node, weight, gradient }),
         }
@@ -416,8 +400,8 @@ mod tests {
     use super::*;
     use crate::Trace;
     use crate::plates::{STEEL, plate, together, tread};
-    use crate::vector::tangential;
     use mesh::{Mesh, Padded, Surface};
+    use nalgebra::Rotation3;
 
     struct Rig {
         trace: Trace,
@@ -471,17 +455,17 @@ mod tests {
         }
 
         /// The position of a slave (m).
-        fn slave(&self, slave: usize) -> Vec3 {
+        fn slave(&self, slave: usize) -> Vector3<f64> {
             let node = self.trace.side(0)[slave] as usize;
-            add(self.reference[node].xyz(), self.displacement[node].xyz())
+            self.reference[node].vector() + self.displacement[node].vector()
         }
 
         /// Moves a body by `to(x)`.
-        fn put(&mut self, body: usize, to: impl Fn(Vec3) -> Vec3) {
+        fn put(&mut self, body: usize, to: impl Fn(Vector3<f64>) -> Vector3<f64>) {
             let range = if body == 0 { 0..self.upper } else { self.upper..self.reference.len() };
             for i in range {
-                let x = self.reference[i].xyz();
-                self.displacement[i] = Padded::new(sub(to(x), x));
+                let x = self.reference[i].vector();
+                self.displacement[i] = (to(x) - x).into();
             }
         }
 
@@ -546,15 +530,15 @@ mod tests {
             tread(0.5, 8e-3, 8e-3, [7, 5], 1e-3),
             plate([-9e-3, -6e-3], [9e-3, 6e-3], [8, 6], 0.0, 1e-3, true),
         );
-        rig.put(0, |x| [x[0] + 3e-4, x[1] - 2e-4, x[2] - 5e-6]);
+        rig.put(0, |x| x + Vector3::new(3e-4, -2e-4, -5e-6));
         for (slave, mean) in rig.means(true).into_iter().enumerate() {
             let mean = mean.unwrap();
             let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
             assert!((sum - 1.0).abs() < 1e-13, "{sum}");
             let x = rig.slave(slave);
             let kinematics = rig.kinematics(slave, &mean);
-            let beside = tangential(sub(x, kinematics.master_point.x), kinematics.normal);
-            assert!(norm(beside) < 1e-15, "{beside:?}");
+            let beside = tangential(x - kinematics.master_point.x, kinematics.normal);
+            assert!(beside.norm() < 1e-15, "{beside:?}");
             assert!(kinematics.stale < 1e-9, "{}", kinematics.stale);
         }
     }
@@ -584,16 +568,19 @@ mod tests {
     #[test]
     fn a_rotation_common_to_both_bodies_changes_neither_gap_nor_age() {
         let mut rig = Rig::turned(0.3, 1.6, 7);
-        rig.put(0, |x| [x[0], x[1], x[2] + 1e-5]);
+        rig.put(0, |x| x + 1e-5 * Vector3::z());
         let means = rig.means(false);
         let slaves: Vec<usize> = (0..means.len()).step_by(5).collect();
-        let (sin, cos) = libm::sincos(0.7_f64);
-        rig.put(1, |[x, y, z]| [cos * x + sin * z, y, cos * z - sin * x]);
-        rig.put(0, |[x, y, z]| [cos * x + sin * (z + 1e-5), y, cos * (z + 1e-5) - sin * x]);
+        let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), 0.7);
+        rig.put(1, |x| turn * x);
+        rig.put(0, |x| turn * (x + 1e-5 * Vector3::z()));
         for slave in slaves {
             let kinematics = rig.kinematics(slave, means[slave].as_ref().unwrap());
             assert!((kinematics.gap - 1e-5).abs() < 1e-16, "{:e}", kinematics.gap);
-            assert!(kinematics.stale < 1e-9 && (kinematics.normal[0] - sin).abs() < 1e-14);
+            assert!(
+                kinematics.stale < 1e-9
+                    && (*kinematics.normal - turn * Vector3::z()).norm() < 1e-14
+            );
         }
     }
 
@@ -605,13 +592,13 @@ mod tests {
         let mean = means[slave].as_ref().unwrap();
         let stale = |rig: &Rig| rig.kinematics(slave, mean).stale;
         // the smaller face is that of the slaves, 1.6 mm
-        rig.put(0, |x| [x[0] + 0.9 * STALE * 1.6e-3, x[1], x[2]]);
+        rig.put(0, |x| x + 0.9 * STALE * 1.6e-3 * Vector3::x());
         assert!((stale(&rig) - 0.9).abs() < 1e-6, "{}", stale(&rig));
-        let centre = rig.reference[rig.trace.side(0)[slave] as usize].xyz();
-        rig.put(0, |x| axpy(x, 1.0, cross([0.0, 0.0, 0.02], sub(x, centre))));
+        let centre = rig.reference[rig.trace.side(0)[slave] as usize].vector();
+        rig.put(0, |x| x + 0.02 * Vector3::z().cross(&(x - centre)));
         assert!(stale(&rig) > 2.0, "{}", stale(&rig));
         // away from the master is no motion along it
-        rig.put(0, |x| [x[0], x[1], x[2] + 1e-4]);
+        rig.put(0, |x| x + 1e-4 * Vector3::z());
         assert!(stale(&rig) < 1e-9);
     }
 
@@ -621,7 +608,7 @@ mod tests {
         let slave = 2 * 6 + 2;
         let old = rig.means(false)[slave].clone().unwrap();
         let mut differ = |shift: f64| {
-            rig.put(0, |x| [x[0] + shift, x[1], x[2]]);
+            rig.put(0, |x| x + shift * Vector3::x());
             let new = rig.means(false)[slave].clone().unwrap();
             let mut constraint = crate::search::Listed::near(slave as u32, 0);
             let x = rig.slave(slave);
@@ -648,16 +635,16 @@ mod tests {
     #[test]
     fn nodes_over_the_border_are_open_once_most_of_their_area_is_beside_the_master() {
         let mut rig = Rig::plates();
-        rig.put(0, |x| [x[0] + 0.6e-3, x[1], x[2]]);
+        rig.put(0, |x| x + 0.6e-3 * Vector3::x());
         let last = |rig: &Rig| rig.means(false)[2 * 6 + 5].clone();
         let mean = last(&rig).unwrap();
         let sum: f64 = mean.shares.iter().map(|s| s.weight).sum();
         assert!((sum - 1.0).abs() < 1e-13);
-        rig.put(0, |x| [x[0] + 1.2e-3, x[1], x[2]]);
+        rig.put(0, |x| x + 1.2e-3 * Vector3::x());
         assert!(last(&rig).is_none());
-        rig.put(0, |x| [x[0] + 20e-3, x[1], x[2]]);
+        rig.put(0, |x| x + 20e-3 * Vector3::x());
         assert!(rig.means(false).iter().all(Option::is_none));
-        rig.put(0, |x| [x[0] + f64::NAN, x[1], x[2]]);
+        rig.put(0, |x| x + f64::NAN * Vector3::x());
         assert!(rig.means(false).iter().all(Option::is_none));
     }
 }

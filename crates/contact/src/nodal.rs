@@ -5,9 +5,9 @@ use crate::point::{ContactPoint, Enforced, State};
 use crate::search::Listed;
 use crate::surface::{ContactSurface, NONE};
 use crate::symmetry::in_plane;
-use crate::vector::{axpy, scale};
 use crate::{PenaltyContact, Trace};
 use mesh::Face;
+use nalgebra::Vector3;
 
 /// Contact quantities at surface nodes, one entry per node of [`nodes`](Self::nodes).
 ///
@@ -25,13 +25,13 @@ pub struct NodalContact {
     /// The part of it that the node's own point carries: the pressure that its law of friction is told.
     pub pass_pressure: Vec<f64>,
     /// Shear traction on this surface (Pa).
-    pub shear: Vec<[f64; 3]>,
+    pub shear: Vec<Vector3<f64>>,
     /// Velocity of this surface relative to the other in the tangent plane (m/s): with springs the mean over the step
     /// that led to `x^n`, with multipliers that of the step that leaves it. Of the node's own pass; where that is open,
     /// the mean of the points of the other pass that load the node, weighted with their normal force.
-    pub slip_velocity: Vec<[f64; 3]>,
+    pub slip_velocity: Vec<Vector3<f64>>,
     /// Tangential motion relative to the other surface since the node's own point closed (m).
-    pub slip: Vec<[f64; 3]>,
+    pub slip: Vec<Vector3<f64>>,
     /// Coefficient of friction that the algorithm used; the law's static value where open.
     pub mu: Vec<f64>,
     /// 0 open, 1 stick, 2 slip: of the node's own point, or where that is open but the node is
@@ -61,9 +61,9 @@ impl NodalContact {
             area,
             pressure: vec![0.0; n],
             pass_pressure: vec![0.0; n],
-            shear: vec![[0.0; 3]; n],
-            slip_velocity: vec![[0.0; 3]; n],
-            slip: vec![[0.0; 3]; n],
+            shear: vec![Vector3::zeros(); n],
+            slip_velocity: vec![Vector3::zeros(); n],
+            slip: vec![Vector3::zeros(); n],
             mu: vec![0.0; n],
             state: vec![State::Open as u8; n],
             gap: vec![0.0; n],
@@ -87,9 +87,9 @@ impl NodalContact {
     fn clear(&mut self, margin: f64) {
         self.pressure.fill(0.0);
         self.pass_pressure.fill(0.0);
-        self.shear.fill([0.0; 3]);
-        self.slip_velocity.fill([0.0; 3]);
-        self.slip.fill([0.0; 3]);
+        self.shear.fill(Vector3::zeros());
+        self.slip_velocity.fill(Vector3::zeros());
+        self.slip.fill(Vector3::zeros());
         self.mu.fill(0.0);
         self.state.fill(State::Open as u8);
         self.gap.fill(margin);
@@ -156,9 +156,8 @@ impl NodalContact {
             table.pressure[row] += normal;
             table.carried[row] += size;
             table.mu[row] += values.mu * size;
-            table.shear[row] = axpy(table.shear[row], -weight, values.friction);
-            let slip = &mut table.slip_velocity[row];
-            *slip = axpy(*slip, -size, values.slip_velocity);
+            table.shear[row] -= weight * values.friction;
+            table.slip_velocity[row] -= size * values.slip_velocity;
             if values.state == State::Slip {
                 table.slipping[row] += size;
             }
@@ -169,11 +168,11 @@ impl NodalContact {
         for row in 0..table.nodes.len() {
             let total = table.carried[row];
             if total > 0.0 {
-                table.slip_velocity[row] = scale(1.0 / total, table.slip_velocity[row]);
+                table.slip_velocity[row] *= 1.0 / total;
                 let slips = 2.0 * table.slipping[row] > total;
                 table.state[row] = if slips { State::Slip } else { State::Stick } as u8;
             } else {
-                table.slip_velocity[row] = [0.0; 3];
+                table.slip_velocity[row] = Vector3::zeros();
             }
             if !followed {
                 table.gap[row] = if total > 0.0 { table.gap[row] / total } else { margin };
@@ -191,7 +190,7 @@ impl NodalContact {
                 table.pass_pressure[row] = values.normal_force / table.area[row];
                 table.carried[row] += values.normal_force;
                 table.mu[row] += values.mu * values.normal_force;
-                table.shear[row] = axpy(table.shear[row], 1.0, values.friction);
+                table.shear[row] += values.friction;
                 table.slip_velocity[row] = values.slip_velocity;
                 table.slip[row] = values.slip;
                 table.state[row] = values.state as u8;
@@ -201,7 +200,7 @@ impl NodalContact {
             let (normal, size) = (table.pressure[row], table.carried[row]);
             table.mu[row] = if size > 0.0 { table.mu[row] / size } else { mu_static };
             table.pressure[row] = normal / table.area[row];
-            table.shear[row] = scale(1.0 / table.area[row], table.shear[row]);
+            table.shear[row] *= 1.0 / table.area[row];
         }
     }
 

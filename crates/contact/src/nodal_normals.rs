@@ -9,7 +9,8 @@
 use crate::face::{Positions, corner_normal};
 use crate::surface::ContactSurface;
 use crate::symmetry::in_plane;
-use crate::vector::{Vec3, add, axpy, norm, scale};
+use mesh::geometry::direction;
+use nalgebra::{UnitVector3, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -33,7 +34,7 @@ impl Normals {
 #[derive(Clone, Debug)]
 pub(crate) struct NodalNormals {
     curvature: bool,
-    normal: Vec<Vec3>,
+    normal: Vec<UnitVector3<f64>>,
     /// The configuration in which each was found.
     found: Vec<u64>,
     now: u64,
@@ -43,7 +44,7 @@ impl NodalNormals {
     /// Of `surface`, with the normals of its exact surface where it has one and `curvature` is set.
     pub fn new(surface: &ContactSurface, curvature: bool) -> Self {
         let nodes = surface.len();
-        Self { curvature, normal: vec![[0.0; 3]; nodes], found: vec![0; nodes], now: 1 }
+        Self { curvature, normal: vec![Vector3::z_axis(); nodes], found: vec![0; nodes], now: 1 }
     }
 
     /// Forgets the normals, since the nodes move.
@@ -59,19 +60,24 @@ impl NodalNormals {
         positions: &Positions<'_>,
         face: u32,
         weights: &[f64; 4],
-    ) -> Vec3 {
+    ) -> UnitVector3<f64> {
         let corners = surface.faces[face as usize].local;
-        let mut sum = [0.0; 3];
+        let mut sum = Vector3::zeros();
         for (weight, node) in weights.iter().zip(corners) {
             // on an edge the nodes beside it have no part
             if *weight != 0.0 {
-                sum = axpy(sum, *weight, self.of(surface, positions, node));
+                sum += *weight * *self.of(surface, positions, node);
             }
         }
-        scale(1.0 / norm(sum), sum)
+        direction(sum)
     }
 
-    fn of(&mut self, surface: &ContactSurface, positions: &Positions<'_>, node: u32) -> Vec3 {
+    fn of(
+        &mut self,
+        surface: &ContactSurface,
+        positions: &Positions<'_>,
+        node: u32,
+    ) -> UnitVector3<f64> {
         let place = node as usize;
         if self.found[place] != self.now {
             self.found[place] = self.now;
@@ -80,14 +86,19 @@ impl NodalNormals {
         self.normal[place]
     }
 
-    fn mean(&self, surface: &ContactSurface, positions: &Positions<'_>, node: u32) -> Vec3 {
+    fn mean(
+        &self,
+        surface: &ContactSurface,
+        positions: &Positions<'_>,
+        node: u32,
+    ) -> UnitVector3<f64> {
         let on_plane = surface.is_on_plane(positions.at(surface.node(node)));
         let around = surface.around(node).iter();
-        let sum = around.fold([0.0; 3], |sum, corner| {
-            let normal = corner_normal(surface, corner, positions, self.curvature);
-            add(sum, if on_plane { in_plane(normal) } else { normal })
+        let sum = around.fold(Vector3::zeros(), |sum, corner| {
+            let normal = *corner_normal(surface, corner, positions, self.curvature);
+            sum + if on_plane { in_plane(normal) } else { normal }
         });
-        scale(1.0 / norm(sum), sum)
+        direction(sum)
     }
 }
 

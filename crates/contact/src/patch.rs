@@ -1,5 +1,6 @@
 //! Measures of the contact patch from nodal values.
 
+use nalgebra::{SMatrix, SVector, Vector2};
 use std::f64::consts::PI;
 
 /// A node is in contact where its pressure exceeds this share of Hertz's peak pressure, or of the largest nodal
@@ -69,15 +70,13 @@ pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<P
         return None;
     }
     // Coordinates about the mean in units of the extent keep the normal equations well scaled.
-    let mean = [0, 1].map(|i: usize| used().map(|(x, _)| x[i]).sum::<f64>() / count as f64);
-    let extent = [0, 1].map(|i: usize| {
-        used().map(|(x, _)| (x[i] - mean[i]).abs()).fold(f64::MIN_POSITIVE, f64::max)
-    });
+    let places = || used().map(|(x, _)| Vector2::new(x[0], x[1]));
+    let mean = places().sum::<Vector2<f64>>() / count as f64;
+    let least = Vector2::repeat(f64::MIN_POSITIVE);
+    let extent = places().fold(least, |most, x| most.sup(&(x - mean).abs()));
     let samples = || {
-        used().map(|(x, p)| {
-            let [s, t] = [0, 1].map(|i: usize| (x[i] - mean[i]) / extent[i]);
-            (s, t, (p / peak) * (p / peak))
-        })
+        let scaled = places().map(|x| (x - mean).component_div(&extent));
+        scaled.zip(used()).map(|(s, (_, p))| (s, (p / peak) * (p / peak)))
     };
     let [low, high] =
         used().fold([f64::MAX, f64::MIN], |[a, b], (x, _)| [a.min(x[1]), b.max(x[1])]);
@@ -86,10 +85,10 @@ pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<P
         || extent[1] < 1e-9 * extent[0];
     let rectangle = in_rows || shape == PatchShape::Rectangle;
     let ([c, cx, cxx], [cy, cyy]) = if rectangle {
-        (least_squares(samples().map(|(s, _, q)| ([1.0, s, s * s], q)))?, [0.0, -1.0])
+        (least_squares(samples().map(|(s, q)| ([1.0, s.x, s.x * s.x], q)))?, [0.0, -1.0])
     } else {
         let [c, cx, cy, cxx, cyy] =
-            least_squares(samples().map(|(s, t, q)| ([1.0, s, t, s * s, t * t], q)))?;
+            least_squares(samples().map(|(s, q)| ([1.0, s.x, s.y, s.x * s.x, s.y * s.y], q)))?;
         ([c, cx, cxx], [cy, cyy])
     };
     if cxx >= 0.0 || cyy >= 0.0 {
@@ -115,16 +114,13 @@ pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<P
 /// Coefficients of the rows' columns that fit the right sides best; `None` where they are not
 /// determined.
 fn least_squares<const N: usize>(rows: impl Iterator<Item = ([f64; N], f64)>) -> Option<[f64; N]> {
-    let (mut matrix, mut right) = ([[0.0; N]; N], [0.0; N]);
+    let (mut matrix, mut right) = (SMatrix::zeros(), SVector::zeros());
     for (row, q) in rows {
-        for i in 0..N {
-            for j in 0..N {
-                matrix[i][j] += row[i] * row[j];
-            }
-            right[i] += row[i] * q;
-        }
+        let row = SVector::from(row);
+        matrix += row * row.transpose();
+        right += q * row;
     }
-    solve(matrix, right)
+    solve(matrix, right).map(Into::into)
 }
 
 /// Area-weighted measures from nodal pressure (Pa), area (m^2) and state (1 stick, 2 slip).
@@ -148,26 +144,29 @@ pub fn areas(pressure: &[f64], area: &[f64], state: &[u8]) -> PatchAreas {
 }
 
 /// Gaussian elimination with row pivoting; `None` for a singular matrix.
-fn solve<const N: usize>(mut m: [[f64; N]; N], mut right: [f64; N]) -> Option<[f64; N]> {
+fn solve<const N: usize>(
+    mut m: SMatrix<f64, N, N>,
+    mut right: SVector<f64, N>,
+) -> Option<SVector<f64, N>> {
     for k in 0..N {
-        let pivot = (k..N).max_by(|&i, &j| m[i][k].abs().total_cmp(&m[j][k].abs()))?;
-        m.swap(k, pivot);
-        right.swap(k, pivot);
-        if m[k][k].abs() < 1e-10 * m[0][0].abs() {
+        let pivot = (k..N).max_by(|&i, &j| m[(i, k)].abs().total_cmp(&m[(j, k)].abs()))?;
+        m.swap_rows(k, pivot);
+        right.swap_rows(k, pivot);
+        if m[(k, k)].abs() < 1e-10 * m[(0, 0)].abs() {
             return None;
         }
         for i in k + 1..N {
-            let factor = m[i][k] / m[k][k];
+            let factor = m[(i, k)] / m[(k, k)];
             for j in k..N {
-                m[i][j] -= factor * m[k][j];
+                m[(i, j)] -= factor * m[(k, j)];
             }
             right[i] -= factor * right[k];
         }
     }
-    let mut x = [0.0; N];
+    let mut x = SVector::zeros();
     for k in (0..N).rev() {
-        let known: f64 = (k + 1..N).map(|j| m[k][j] * x[j]).sum();
-        x[k] = (right[k] - known) / m[k][k];
+        let known: f64 = (k + 1..N).map(|j| m[(k, j)] * x[j]).sum();
+        x[k] = (right[k] - known) / m[(k, k)];
     }
     Some(x)
 }

@@ -7,10 +7,10 @@ use crate::point::State;
 use crate::search::{Listed, Search};
 use crate::sums::Accumulator;
 use crate::surface::ContactSurface;
-use crate::vector::axpy;
 use crate::{BodyMaterial, ContactError, ContactSums, Motion, StabilityScale, Stiffness, Trace};
 use friction::{NodeFriction, NodeHistory};
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::Vector3;
 
 /// Settings of [`PenaltyContact`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -179,17 +179,13 @@ impl PenaltyContact {
                 if !point.is_closed() {
                     continue;
                 }
-                let on_slave = axpy(point.friction, point.normal_force, point.normal);
+                let on_slave = point.friction + point.normal_force * *point.normal;
                 let [node, corners @ ..] = self.bearing(slave, point);
                 scatter(point, node, corners, on_slave, force);
                 // the forces that really reach the nodes of either side
                 sums.push(slave, on_slave);
-                let on_corners = point
-                    .enforcement
-                    .weights
-                    .iter()
-                    .fold([0.0; 3], |sum, w| axpy(sum, -w, on_slave));
-                sums.push(1 - slave, on_corners);
+                let on_corners = point.enforcement.weights.iter().map(|w| -w * on_slave);
+                sums.push(1 - slave, on_corners.sum::<Vector3<f64>>());
                 sums.normal_force.add(point.normal_force);
                 sums.stored_normal.add(point.stored_normal());
                 sums.stored_tangential.add(point.stored_tangential());

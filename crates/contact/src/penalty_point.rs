@@ -7,9 +7,10 @@ use crate::point::{ContactPoint, Enforced, State, relative_velocity, sleep};
 use crate::search::Listed;
 use crate::stiffness::{StabilityScale, Stiffness};
 use crate::surface::{ContactSurface, MasterFace};
-use crate::vector::{Vec3, axpy, dot, frame, norm, scale, sub, tangential};
 use friction::{NodeFriction, NodeHistory};
 use mesh::Padded;
+use mesh::geometry::{frame, tangential};
+use nalgebra::{Matrix3x2, UnitVector3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// A contact point that a spring and a damper push out and a friction spring holds.
@@ -41,21 +42,21 @@ struct Trial {
     held: bool,
     /// Tangential motion of the slave over the step (m) from where its old place on the face has gone, so that a rotation
     /// common to both bodies gives none.
-    delta: Vec3,
+    delta: Vector3<f64>,
     /// The old force, turned with the frame of the face at the old projection and laid into the new tangent plane with its
     /// length kept (N).
-    start: Vec3,
+    start: Vector3<f64>,
     /// First direction of the face at the new projection.
-    tangent: Vec3,
+    tangent: Vector3<f64>,
 }
 
 /// A point in contact since the step before, as the face has carried it along.
 struct Held {
     /// Motion of the slave over the step relative to where it was on the face, at the distance it had (m).
-    moved: Vec3,
+    moved: Vector3<f64>,
     /// The normal of the last step and its frame.
-    normal: Vec3,
-    frame: [Vec3; 2],
+    normal: UnitVector3<f64>,
+    frame: Matrix3x2<f64>,
 }
 
 impl Enforced for Springs {
@@ -78,7 +79,7 @@ impl PenaltyPoint {
     pub fn stored_tangential(&self) -> f64 {
         let stiffness = self.enforcement.stiffness[1];
         if self.is_closed() && stiffness > 0.0 {
-            0.5 * dot(self.friction, self.friction) / stiffness
+            0.5 * self.friction.norm_squared() / stiffness
         } else {
             0.0
         }
@@ -166,7 +167,7 @@ impl Pass<'_> {
                     face.nodes,
                     &point.enforcement.weights,
                 );
-                point.sleep = sleep(projection.gap, norm(velocity), self.margin, motion.dt);
+                point.sleep = sleep(projection.gap, velocity.norm(), self.margin, motion.dt);
             }
             return;
         }
@@ -183,16 +184,16 @@ impl Pass<'_> {
         point.normal = averaged(projection.face, &point.enforcement.weights, of_face);
         let held = before.is_closed().then(|| {
             let normal = averaged(before.face, &before.enforcement.weights, old.normal);
-            let kept = axpy(old.x, before.gap + old.offset, old.normal);
-            Held { moved: sub(x, kept), normal, frame: frame(old.tangent, normal) }
+            let kept = old.x + (before.gap + old.offset) * *old.normal;
+            Held { moved: x - kept, normal, frame: frame(old.tangent, normal) }
         });
         self.press(point, &before, node, face, motion);
         if let Some(Held { moved, normal, .. }) = &held {
             // the springs store by the gap, which does not change along the face: the work that an inclined normal does
             // there is none of theirs
-            let tilted = scale(before.normal_force, sub(*normal, old.normal));
-            let along = axpy(tilted, point.normal_force, sub(point.normal, of_face));
-            point.enforcement.damping_work -= 0.5 * dot(along, *moved);
+            let along = before.normal_force * (**normal - *old.normal)
+                + point.normal_force * (*point.normal - *of_face);
+            point.enforcement.damping_work -= 0.5 * along.dot(moved);
         }
         match motion {
             Some(motion) => {
@@ -211,13 +212,13 @@ impl Pass<'_> {
             }
             None => {
                 point.state = State::Stick;
-                point.friction = [0.0; 3];
-                point.framed = [0.0; 2];
+                point.friction = Vector3::zeros();
+                point.framed = Vector2::zeros();
                 point.mu = self.law.mu_static();
                 // the time loop goes on from here
                 point.memory = self.law.begin(&point.place(self.slave, x, 0.0));
-                point.slip_velocity = [0.0; 3];
-                point.slip = [0.0; 3];
+                point.slip_velocity = Vector3::zeros();
+                point.slip = Vector3::zeros();
             }
         }
     }
@@ -239,10 +240,9 @@ impl Pass<'_> {
         if self.damping == 0.0 {
             return;
         }
-        let rate = dot(
-            point.normal,
-            relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights),
-        );
+        let velocity =
+            relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
+        let rate = point.normal.dot(&velocity);
         let mut compliance = motion.inverse_mass[node as usize];
         for (weight, corner) in point.enforcement.weights.iter().zip(face.nodes) {
             compliance += weight * weight * motion.inverse_mass[corner as usize];
@@ -263,7 +263,7 @@ impl Pass<'_> {
     fn begin(
         &self,
         point: &mut PenaltyPoint,
-        x: Vec3,
+        x: Vector3<f64>,
         node: u32,
         face: &MasterFace,
         motion: &Motion<'_>,
@@ -301,21 +301,21 @@ impl Pass<'_> {
         }
         point.memory = slid.state;
         let stiffness = point.enforcement.stiffness[1];
-        let mut friction = axpy(start, -stiffness, delta);
-        let (trial, cap) = (norm(friction), point.mu * point.normal_force);
+        let mut friction = start - stiffness * delta;
+        let (trial, cap) = (friction.norm(), point.mu * point.normal_force);
         // a coefficient that is no number must reach the guards
         if cap.is_nan() || trial > cap {
-            friction = scale(cap / trial, friction);
+            friction *= cap / trial;
             point.state = State::Slip;
             if stiffness > 0.0 {
-                let slip = axpy(delta, 1.0 / stiffness, sub(friction, start));
-                point.enforcement.friction_work = -0.5 * (dot(start, slip) + dot(friction, slip));
+                let slip = delta + (1.0 / stiffness) * (friction - start);
+                point.enforcement.friction_work = -0.5 * (start.dot(&slip) + friction.dot(&slip));
             }
         }
         point.friction = friction;
         point.keep_in(frame(tangent, point.normal));
-        point.slip_velocity = scale(1.0 / dt, delta);
-        point.slip = axpy(point.slip, 1.0, delta);
+        point.slip_velocity = delta * (1.0 / dt);
+        point.slip += delta;
     }
 }
 
@@ -325,15 +325,11 @@ pub(crate) fn scatter(
     point: &PenaltyPoint,
     slave: u32,
     corners: [u32; 4],
-    on_slave: Vec3,
+    on_slave: Vector3<f64>,
     force: &mut [Padded],
 ) {
-    for i in 0..3 {
-        force[slave as usize][i] += on_slave[i];
-    }
+    force[slave as usize] += on_slave;
     for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
-        for i in 0..3 {
-            force[corner as usize][i] -= weight * on_slave[i];
-        }
+        force[corner as usize] -= *weight * on_slave;
     }
 }

@@ -3,8 +3,8 @@
 
 use crate::face::Positions;
 use crate::penalty_point::{PenaltyPoint, scatter};
+use crate::point::relative_velocity;
 use crate::search::{Listed, neighbours};
-use crate::vector::{Vec3, axpy, dot, scale};
 use crate::{Gap, PenaltyContact};
 use mesh::{Mesh, Padded};
 
@@ -18,13 +18,10 @@ impl PenaltyContact {
         for (slave, list) in self.points.iter().enumerate() {
             for point in list.iter().filter(|p| p.is_closed()) {
                 let [node, corners @ ..] = self.bearing_in_mesh(slave, point);
-                let mut w = x[node as usize].xyz();
-                for (weight, corner) in point.enforcement.weights.iter().zip(corners) {
-                    w = axpy(w, -weight, x[corner as usize].xyz());
-                }
+                let w = relative_velocity(x, node, corners, &point.enforcement.weights);
                 let [normal, tangential] = point.enforcement.stiffness;
-                let along = (normal - tangential) * dot(point.normal, w);
-                let on_slave: Vec3 = axpy(scale(tangential, w), along, point.normal);
+                let along = (normal - tangential) * point.normal.dot(&w);
+                let on_slave = tangential * w + along * *point.normal;
                 scatter(point, node, corners, on_slave, y);
             }
         }

@@ -2,6 +2,7 @@
 
 use crate::BodyMaterial;
 use mesh::{Face, Mesh, SmoothSurface, Surface};
+use nalgebra::Vector3;
 
 pub(crate) const STEEL: BodyMaterial = BodyMaterial { bulk_modulus: 175e9, density: 7850.0 };
 
@@ -30,7 +31,7 @@ pub(crate) fn tread(
     cells: [usize; 2],
     depth: f64,
 ) -> (Mesh, Surface) {
-    let smooth = SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown: None };
+    let smooth = SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown: None };
     mapped(cells, false, Some(smooth), |s, t, inside| {
         let (angle, r) = ((2.0 * s - 1.0) * half_angle, radius - depth * inside);
         [r * libm::sin(angle), (t - 0.5) * width, radius - r * libm::cos(angle)]

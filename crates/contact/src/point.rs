@@ -3,9 +3,10 @@
 use crate::face::{Followed, Positions, Projection, project};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, axpy, dot, norm, scale, tangential};
 use friction::{NodeConditions, NodeHistory};
 use mesh::Padded;
+use mesh::geometry::tangential;
+use nalgebra::{Matrix3x2, UnitVector3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// An open node is looked at again after at most this many steps.
@@ -44,22 +45,22 @@ pub(crate) struct ContactPoint<E> {
     pub eta: f64,
     /// Negative where the slave has penetrated (m).
     pub gap: f64,
-    /// Unit normal of the master, out of its body.
-    pub normal: Vec3,
+    /// Normal of the master, out of its body; any before one is found.
+    pub normal: UnitVector3<f64>,
     /// On the slave along the normal (N).
     pub normal_force: f64,
     /// On the slave in the tangent plane (N).
-    pub friction: Vec3,
+    pub friction: Vector3<f64>,
     /// `friction` in the tangential frame that turns with the master.
-    pub framed: [f64; 2],
+    pub framed: Vector2<f64>,
     /// Coefficient of friction (dimensionless).
     pub mu: f64,
     /// State of the friction law.
     pub memory: [f64; 2],
     /// Of the slave relative to the master, tangential (m/s).
-    pub slip_velocity: Vec3,
+    pub slip_velocity: Vector3<f64>,
     /// Its integral since contact began (m).
-    pub slip: Vec3,
+    pub slip: Vector3<f64>,
     /// What the method of enforcement keeps besides.
     pub enforcement: E,
 }
@@ -74,14 +75,14 @@ impl<E: Enforced> Listed for ContactPoint<E> {
             xi: 0.0,
             eta: 0.0,
             gap: f64::INFINITY,
-            normal: [0.0; 3],
+            normal: Vector3::z_axis(),
             normal_force: 0.0,
-            friction: [0.0; 3],
-            framed: [0.0; 2],
+            friction: Vector3::zeros(),
+            framed: Vector2::zeros(),
             mu: 0.0,
             memory: [0.0; 2],
-            slip_velocity: [0.0; 3],
-            slip: [0.0; 3],
+            slip_velocity: Vector3::zeros(),
+            slip: Vector3::zeros(),
             enforcement: E::default(),
         }
     }
@@ -122,7 +123,7 @@ impl<E: Enforced> ContactPoint<E> {
         master: &ContactSurface,
         positions: &Positions<'_>,
         curvature: bool,
-        x: Vec3,
+        x: Vector3<f64>,
     ) -> Followed {
         project(master, positions, curvature, x, self.face, self.xi, self.eta)
     }
@@ -135,28 +136,33 @@ impl<E: Enforced> ContactPoint<E> {
 
     /// The force of friction of the last step: turned with the tangential frame of the master, which
     /// is `frame` now, and laid into the plane with unit normal `n`, its length kept.
-    pub fn transported(&self, frame: [Vec3; 2], n: Vec3) -> Vec3 {
-        let turned = axpy(scale(self.framed[0], frame[0]), self.framed[1], frame[1]);
+    pub fn transported(&self, frame: Matrix3x2<f64>, n: UnitVector3<f64>) -> Vector3<f64> {
+        let turned = frame * self.framed;
         let flat = tangential(turned, n);
-        let (length, left) = (norm(turned), norm(flat));
-        if left > 0.0 { scale(length / left, flat) } else { [0.0; 3] }
+        let (length, left) = (turned.norm(), flat.norm());
+        if left > 0.0 { flat * (length / left) } else { Vector3::zeros() }
     }
 
     /// Keeps the force of friction in the tangential frame of the master.
-    pub fn keep_in(&mut self, frame: [Vec3; 2]) {
-        self.framed = frame.map(|e| dot(self.friction, e));
+    pub fn keep_in(&mut self, frame: Matrix3x2<f64>) {
+        self.framed = frame.tr_mul(&self.friction);
     }
 
     /// Where and when the law of friction is asked, for a node of `surface` at `position`.
-    pub fn place(&self, surface: &ContactSurface, position: Vec3, time: f64) -> NodeConditions {
+    pub fn place(
+        &self,
+        surface: &ContactSurface,
+        position: Vector3<f64>,
+        time: f64,
+    ) -> NodeConditions {
         let pressure = self.normal_force / surface.area[self.slave as usize];
-        let [x, y, z] = position;
-        NodeConditions { position: [x + surface.origin, y, z], time, pressure }
+        let position = [position.x + surface.origin, position.y, position.z];
+        NodeConditions { position, time, pressure }
     }
 
     /// What the law of friction is told: the slip speed of the step before.
     pub fn slid(&self, at: NodeConditions) -> NodeHistory {
-        NodeHistory { state: self.memory, slip_speed: norm(self.slip_velocity), at }
+        NodeHistory { state: self.memory, slip_speed: self.slip_velocity.norm(), at }
     }
 
     /// What tables of nodes show of it.
@@ -187,10 +193,10 @@ pub(crate) struct PointValues {
     pub gap: f64,
     /// Normal force (N) and tangential force on the slave (N).
     pub normal_force: f64,
-    pub friction: Vec3,
+    pub friction: Vector3<f64>,
     pub mu: f64,
-    pub slip_velocity: Vec3,
-    pub slip: Vec3,
+    pub slip_velocity: Vector3<f64>,
+    pub slip: Vector3<f64>,
 }
 
 /// Gives the second slave of each pair of mesh nodes the state of the first; the pairs ascend by the first,
@@ -235,10 +241,10 @@ pub(crate) fn relative_velocity(
     node: u32,
     corners: [u32; 4],
     weights: &[f64; 4],
-) -> Vec3 {
-    let mut relative = velocity[node as usize].xyz();
+) -> Vector3<f64> {
+    let mut relative = velocity[node as usize].vector();
     for (weight, corner) in weights.iter().zip(corners) {
-        relative = axpy(relative, -weight, velocity[corner as usize].xyz());
+        relative -= *weight * velocity[corner as usize].vector();
     }
     relative
 }
@@ -259,7 +265,7 @@ mod tests {
         let mut first = Constraint::near(3, 17);
         (first.xi, first.eta) = (0.25, -0.5);
         (first.state, first.gap, first.normal_force) = (State::Slip, -1e-6, 120.0);
-        (first.framed, first.mu, first.memory) = ([30.0, -10.0], 0.3, [1e-3, 2e-3]);
+        (first.framed, first.mu, first.memory) = (Vector2::new(30.0, -10.0), 0.3, [1e-3, 2e-3]);
         let mut second = Constraint::near(8, 41);
         (second.xi, second.eta) = (-0.75, 0.125);
         // the slaves 3 and 8 are the nodes 20 and 90 of the mesh
@@ -271,7 +277,7 @@ mod tests {
         assert_eq!([follower.xi, follower.eta], [-0.75, 0.125]);
         assert_eq!(follower.state, State::Slip);
         assert_eq!([follower.gap, follower.normal_force, follower.mu], [-1e-6, 120.0, 0.3]);
-        assert_eq!([follower.framed, follower.memory], [first.framed, first.memory]);
+        assert_eq!((follower.framed, follower.memory), (first.framed, first.memory));
     }
 
     #[test]

@@ -21,8 +21,8 @@
 
 use crate::face::Positions;
 use crate::surface::{ContactSurface, NONE};
-use crate::vector::{Vec3, add, axpy, cross, dot, norm, scale, sub};
 use mesh::BoxTree;
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 /// Margin in terms of the smallest face: small, for few open points; large enough that a rolling
@@ -38,9 +38,12 @@ const LONGEST_INTERVAL: u32 = 8;
 const DUE: f64 = 0.7;
 
 /// A box of a face, `[low, high]`.
-pub(crate) type Span = [Vec3; 2];
+pub(crate) type Span = [Vector3<f64>; 2];
 
-const NOTHING: Span = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+const NOTHING: Span = {
+    let far = f64::INFINITY;
+    [Vector3::new(far, far, far), Vector3::new(-far, -far, -far)]
+};
 
 /// A slave node that the search lists because it is near the other surface.
 pub(crate) trait Listed: Copy {
@@ -58,11 +61,11 @@ pub(crate) struct Search {
     #[serde(skip)]
     pub margin: f64,
     /// Positions of the surface nodes at the last search.
-    pub at: [Vec<Vec3>; 2],
+    pub at: [Vec<Vector3<f64>>; 2],
     /// One over the square of the motion allowed to each surface node (1/m^2).
     pub allowance: [Vec<f64>; 2],
     /// Motion of the surface nodes since the last search, at the last look (m).
-    pub moved: [Vec<Vec3>; 2],
+    pub moved: [Vec<Vector3<f64>>; 2],
     pub steps_to_check: u32,
     pub steps_since_check: u32,
     /// Nearest master face of each node in the search under way.
@@ -119,12 +122,12 @@ impl Search {
         let (mut used, mut went) = (0.0_f64, 0.0_f64);
         for side in 0..2 {
             for (i, node) in sides[side].nodes().enumerate() {
-                let moved = sub(sub(positions.at(node), self.at[side][i]), frame);
-                let last = sub(moved, self.moved[side][i]);
+                let moved = positions.at(node) - self.at[side][i] - frame;
+                let last = moved - self.moved[side][i];
                 self.moved[side][i] = moved;
                 let allowance = self.allowance[side][i];
-                used = used.max(dot(moved, moved) * allowance);
-                went = went.max(dot(last, last) * allowance);
+                used = used.max(moved.norm_squared() * allowance);
+                went = went.max(last.norm_squared() * allowance);
             }
         }
         let used = used.sqrt();
@@ -141,18 +144,17 @@ impl Search {
         sides: &[ContactSurface; 2],
         positions: &Positions<'_>,
         points: &[Vec<impl Listed>; 2],
-    ) -> Vec3 {
-        let mut sum = [0.0; 3];
+    ) -> Vector3<f64> {
+        let mut sum = Vector3::zeros();
         let mut count = 0.0;
         for side in 0..2 {
             for point in &points[side] {
                 let i = point.slave() as usize;
-                sum =
-                    add(sum, sub(positions.at(sides[side].node(point.slave())), self.at[side][i]));
+                sum += positions.at(sides[side].node(point.slave())) - self.at[side][i];
                 count += 1.0;
             }
         }
-        if count > 0.0 { scale(1.0 / count, sum) } else { sum }
+        if count > 0.0 { sum * (1.0 / count) } else { sum }
     }
 
     /// Lists the nodes within the margin of the other surface as points, ascending; closed points
@@ -169,7 +171,7 @@ impl Search {
             self.at[side].clear();
             self.at[side].extend(surface.nodes().map(|n| positions.at(n)));
             self.moved[side].clear();
-            self.moved[side].resize(surface.len(), [0.0; 3]);
+            self.moved[side].resize(surface.len(), Vector3::zeros());
             self.spans[side].clear();
             self.spans[side]
                 .extend((0..surface.faces.len()).map(|f| span(surface, f, &self.at[side])));
@@ -235,12 +237,11 @@ impl Search {
     fn list(&mut self, sides: &[ContactSurface; 2], f: u32, g: u32) {
         for (slave, own, master, face) in [(0, f, 1, g), (1, g, 0, f)] {
             let corners = sides[master].faces[face as usize].local;
-            let sum = corners.iter().fold([0.0; 3], |s, &c| add(s, self.at[master][c as usize]));
-            let centre = scale(0.25, sum);
+            let sum: Vector3<f64> = corners.iter().map(|&c| self.at[master][c as usize]).sum();
+            let centre = 0.25 * sum;
             for node in sides[slave].faces[own as usize].local {
-                let arm = sub(self.at[slave][node as usize], centre);
+                let d = (self.at[slave][node as usize] - centre).norm_squared();
                 let best = &mut self.nearest[slave][node as usize];
-                let d = dot(arm, arm);
                 if d < best.0 || (d == best.0 && face < best.1) {
                     *best = (d, face);
                 }
@@ -264,44 +265,32 @@ fn merged<P: Listed>(old: &[P], nearest: &[(f64, u32)]) -> Vec<P> {
 }
 
 /// Box of a face and of what lies behind it; nowhere if a coordinate is not finite.
-fn span(surface: &ContactSurface, face: usize, at: &[Vec3]) -> Span {
+fn span(surface: &ContactSurface, face: usize, at: &[Vector3<f64>]) -> Span {
     let face = &surface.faces[face];
     let x = face.local.map(|n| at[n as usize]);
-    let outward = cross(sub(x[2], x[0]), sub(x[3], x[1]));
-    let inward = scale(-DEPTH * face.size / norm(outward).max(f64::MIN_POSITIVE), outward);
-    let mut box_ = NOTHING;
-    for corner in x {
-        for point in [corner, axpy(corner, 1.0, inward)] {
-            if !point.iter().all(|c| c.is_finite()) {
-                return NOTHING;
-            }
-            for i in 0..3 {
-                box_[0][i] = box_[0][i].min(point[i]);
-                box_[1][i] = box_[1][i].max(point[i]);
-            }
+    let outward = (x[2] - x[0]).cross(&(x[3] - x[1]));
+    let inward = outward * (-DEPTH * face.size / outward.norm().max(f64::MIN_POSITIVE));
+    let mut span = NOTHING;
+    for point in x.into_iter().flat_map(|corner| [corner, corner + inward]) {
+        if !point.iter().all(|c| c.is_finite()) {
+            return NOTHING;
         }
+        span = common_hull(&span, &[point; 2]);
     }
-    box_
+    span
 }
 
 fn hull<'a>(spans: impl Iterator<Item = &'a Span>) -> Span {
-    spans.fold(NOTHING, |mut all, s| {
-        for i in 0..3 {
-            all[0][i] = all[0][i].min(s[0][i]);
-            all[1][i] = all[1][i].max(s[1][i]);
-        }
-        all
-    })
+    spans.fold(NOTHING, |all, span| common_hull(&all, span))
+}
+
+fn common_hull(a: &Span, b: &Span) -> Span {
+    [a[0].inf(&b[0]), a[1].sup(&b[1])]
 }
 
 /// Distance of two boxes; infinite from [`NOTHING`].
 fn distance(a: &Span, b: &Span) -> f64 {
-    let mut squared = 0.0;
-    for i in 0..3 {
-        let d = (a[0][i] - b[1][i]).max(b[0][i] - a[1][i]).max(0.0);
-        squared += d * d;
-    }
-    squared.sqrt()
+    (a[0] - b[1]).sup(&(b[0] - a[1])).sup(&Vector3::zeros()).norm()
 }
 
 /// Calls `visit` for all faces `f` of side 0 and `g` of side 1 whose boxes in the configuration
@@ -313,7 +302,7 @@ pub(crate) fn neighbours(
     mut visit: impl FnMut(usize, usize),
 ) {
     let spans = [0, 1].map(|side: usize| {
-        let at: Vec<Vec3> = sides[side].nodes().map(|n| positions.at(n)).collect();
+        let at: Vec<Vector3<f64>> = sides[side].nodes().map(|n| positions.at(n)).collect();
         (0..sides[side].faces.len()).map(|f| span(&sides[side], f, &at)).collect::<Vec<Span>>()
     });
     let tree = BoxTree::new(spans[1].iter().copied());

@@ -1,13 +1,13 @@
 //! Sums over the contact, which do not depend on the order of its points.
 
-use crate::vector::Vec3;
 use exact_sum::ExactSum;
+use nalgebra::Vector3;
 
 /// Sums over the contact at one instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactSums {
     /// Resultant of the forces applied to the nodes of each side (N).
-    pub force: [[f64; 3]; 2],
+    pub force: [Vector3<f64>; 2],
     /// Sum of the normal forces of all contact points of both passes (N).
     pub normal_force: f64,
     /// Energy stored in the normal springs (J).
@@ -55,7 +55,7 @@ impl ContactSums {
     /// reaction can be compared.
     pub fn times(self, multiplicity: f64) -> Self {
         Self {
-            force: self.force.map(|force| force.map(|f| multiplicity * f)),
+            force: self.force.map(|force| multiplicity * force),
             normal_force: multiplicity * self.normal_force,
             stored_normal: multiplicity * self.stored_normal,
             stored_tangential: multiplicity * self.stored_tangential,
@@ -99,8 +99,8 @@ impl Accumulator {
     }
 
     /// Takes a force on a node of `side` (N) into the resultant.
-    pub(crate) fn push(&mut self, side: usize, force: Vec3) {
-        self.force[side].iter_mut().zip(force).for_each(|(sum, f)| sum.add(f));
+    pub(crate) fn push(&mut self, side: usize, force: Vector3<f64>) {
+        self.force[side].iter_mut().zip(&force).for_each(|(sum, f)| sum.add(*f));
     }
 
     /// Takes a coefficient of friction into the largest; one that is no number stays.
@@ -113,7 +113,7 @@ impl Accumulator {
 
     pub(crate) fn finish(self) -> ContactSums {
         ContactSums {
-            force: self.force.map(|side| side.map(|f| f.value())),
+            force: self.force.map(|side| side.map(|f| f.value()).into()),
             normal_force: self.normal_force.value(),
             stored_normal: self.stored_normal.value(),
             stored_tangential: self.stored_tangential.value(),

@@ -1,9 +1,9 @@
 //! One contact surface: its nodes, faces, neighbours, tributary areas and masses.
 
 use crate::face::{Bilinear, Inclination, Positions};
-use crate::vector::Vec3;
 use crate::{BodyMaterial, ContactError, Trace};
 use mesh::{Mesh, SmoothSurface, Surface};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ impl MasterFace {
     #[inline(always)]
     pub fn facet(&self, positions: &Positions<'_>) -> Bilinear {
         // Not by `map`: what it calls is not always inlined.
-        let mut x = [[0.0; 3]; 4];
+        let mut x = [Vector3::zeros(); 4];
         for (x, &node) in x.iter_mut().zip(&self.nodes) {
             *x = positions.at(node);
         }
@@ -146,7 +146,7 @@ impl ContactSurface {
                 nodes: local.map(|n| first + n),
                 local,
                 neighbours: [(NONE, 0); 4],
-                reference: Bilinear::through(corners),
+                reference: Bilinear::through(corners.map(Vector3::from)),
                 size: area.sqrt(),
             });
         }
@@ -166,12 +166,12 @@ impl ContactSurface {
 
     /// Whether a node at `x` (m) lies on the plane of symmetry of the surface.
     #[inline(always)]
-    pub fn is_on_plane(&self, x: Vec3) -> bool {
+    pub fn is_on_plane(&self, x: Vector3<f64>) -> bool {
         self.symmetric && x[1] == 0.0
     }
 
     /// How many nodes of the whole surface a node at `x` (m) stands for: itself, and its mirror image where it has one.
-    pub fn nodes_of_whole(&self, x: Vec3) -> usize {
+    pub fn nodes_of_whole(&self, x: Vector3<f64>) -> usize {
         if self.symmetric && x[1] != 0.0 { 2 } else { 1 }
     }
 

@@ -34,7 +34,7 @@ fn worst_spot(contact: &dyn ContactTables, measure: impl Fn(&Spot) -> f64) -> Op
         let mut table = contact.nodal_table(side);
         contact.nodal(&mut table);
         for (i, &node) in table.nodes.iter().enumerate() {
-            let slip_speed = table.slip_velocity[i].iter().map(|c| c * c).sum::<f64>().sqrt();
+            let slip_speed = table.slip_velocity[i].norm();
             let pressure = table.pressure[i];
             let spot = Spot {
                 node: node as usize,

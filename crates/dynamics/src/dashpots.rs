@@ -8,6 +8,7 @@
 
 use crate::hub::{Hub, HubState};
 use mesh::Padded;
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// The dashpots of a step.
@@ -24,7 +25,7 @@ pub(crate) struct Dashpots {
 /// A hub's rigid motion; by default rest.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RigidMotion {
-    centre: [f64; 3],
+    centre: Vector3<f64>,
     turn: (f64, f64),
     v: [f64; 3],
     omega: f64,

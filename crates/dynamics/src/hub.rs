@@ -5,6 +5,7 @@ use crate::second_moments::SecondMoments;
 use crate::sideways::Sideways;
 use exact_sum::ExactSum;
 use mesh::Padded;
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
@@ -104,18 +105,16 @@ impl DriveReaction {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Resultant {
     /// Force (N).
-    pub force: [f64; 3],
+    pub force: Vector3<f64>,
     /// Moment (N m).
-    pub moment: [f64; 3],
+    pub moment: Vector3<f64>,
 }
 
 impl Resultant {
     /// Adds another.
     pub(crate) fn add(&mut self, other: &Self) {
-        for i in 0..3 {
-            self.force[i] += other.force[i];
-            self.moment[i] += other.moment[i];
-        }
+        self.force += other.force;
+        self.moment += other.moment;
     }
 }
 
@@ -123,11 +122,11 @@ impl Resultant {
 #[derive(Clone, Debug)]
 pub struct Hub {
     /// Centre in the reference configuration (m).
-    pub centre: [f64; 3],
+    pub centre: Vector3<f64>,
     /// The nodes that follow it.
     pub nodes: Vec<u32>,
     /// Reference positions of the nodes relative to the centre (m).
-    arms: Vec<[f64; 3]>,
+    arms: Vec<Vector3<f64>>,
     /// Mass of the hub with its nodes (kg).
     pub mass: f64,
     /// Moment of inertia about y through the centre, with its nodes (kg m^2).
@@ -166,7 +165,7 @@ impl Hub {
     /// A hub about `centre` with its nodes' lumped masses plus `extra_mass` (kg), the latter a
     /// solid cylinder of the hub's radius.
     pub fn new(
-        centre: [f64; 3],
+        centre: Vector3<f64>,
         nodes: &[u32],
         reference: &[Padded],
         nodal_mass: &[f64],
@@ -174,13 +173,7 @@ impl Hub {
         spin: Spin,
         vertical: Vertical,
     ) -> Self {
-        let arms: Vec<[f64; 3]> = nodes
-            .iter()
-            .map(|&n| {
-                let x = reference[n as usize];
-                [x.0[0] - centre[0], x.0[1] - centre[1], x.0[2] - centre[2]]
-            })
-            .collect();
+        let arms: Vec<_> = nodes.iter().map(|&n| reference[n as usize].vector() - centre).collect();
         let [mut mass, mut inertia, mut along, mut down] = [ExactSum::ZERO; 4];
         mass.add(extra_mass);
         let mut radius_squared: f64 = 0.0;
@@ -270,41 +263,39 @@ impl Hub {
     /// Resultant of `force` on the hub's nodes (N); where the hub rolls straight, force in x and z and moment about y alone.
     pub fn resultant(&self, displacement: &[Padded], force: &[Padded]) -> Resultant {
         let HubState { x, y, z, .. } = self.state;
-        self.resultant_about([x, y, z], displacement, force)
+        self.resultant_about(Vector3::new(x, y, z), displacement, force)
     }
 
     /// The same, the moment about the centre displaced by `centre` (m).
     pub(crate) fn resultant_about(
         &self,
-        centre: [f64; 3],
+        centre: Vector3<f64>,
         displacement: &[Padded],
         force: &[Padded],
     ) -> Resultant {
         let mut sum = [ExactSum::ZERO; 3];
         let mut across = [ExactSum::ZERO; 3];
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
-            let (f, u) = (force[n as usize], displacement[n as usize]);
-            let rx = arm[0] + u.0[0] - centre[0];
-            let rz = arm[2] + u.0[2] - centre[2];
-            sum[0].add(f.0[0]);
-            sum[1].add(f.0[2]);
-            sum[2].add(rz * f.0[0] - rx * f.0[2]);
+            let f = force[n as usize].vector();
+            let moment = (arm + displacement[n as usize].vector() - centre).cross(&f);
+            sum[0].add(f.x);
+            sum[1].add(f.z);
+            sum[2].add(moment.y);
             if self.sideways.is_some() {
-                let ry = arm[1] + u.0[1] - centre[1];
-                across[0].add(f.0[1]);
-                across[1].add(ry * f.0[2] - rz * f.0[1]);
-                across[2].add(rx * f.0[1] - ry * f.0[0]);
+                across[0].add(f.y);
+                across[1].add(moment.x);
+                across[2].add(moment.z);
             }
         }
         let [fx, fz, my] = sum.map(|s| s.value());
         let [fy, mx, mz] = across.map(|s| s.value());
-        Resultant { force: [fx, fy, fz], moment: [mx, my, mz] }
+        Resultant { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) }
     }
 
     /// The displacement (m) of any reference position (m) that moves with the hub as one rigid body.
-    pub fn rigid_motion(&self) -> impl Fn([f64; 3]) -> [f64; 3] + use<> {
+    pub fn rigid_motion(&self) -> impl Fn(Vector3<f64>) -> Vector3<f64> + use<> {
         let (placement, centre) = (Placement::new(self.state), self.centre);
-        move |x| placement.displacement([0, 1, 2].map(|i| x[i] - centre[i]))
+        move |x| placement.displacement(&(x - centre))
     }
 
     /// Acceleration of the centre in z (m/s^2) and angular acceleration (rad/s^2) at a full step with the first moment
@@ -392,10 +383,9 @@ impl Hub {
         velocity: &mut [Padded],
     ) {
         for (&n, arm) in self.nodes.iter().zip(&self.arms) {
-            let u = displacement[n as usize];
-            let rx = arm[0] + u.0[0] - self.state.x;
-            let rz = arm[2] + u.0[2] - self.state.z;
-            velocity[n as usize] = Padded::new([omega * rz, 0.0, vz - omega * rx]);
+            let r = arm + displacement[n as usize].vector();
+            let [x, z] = [r.x - self.state.x, r.z - self.state.z];
+            velocity[n as usize] = Padded::new([omega * z, 0.0, vz - omega * x]);
         }
     }
 
@@ -413,9 +403,8 @@ impl Hub {
     ) -> impl Iterator<Item = (usize, Padded, Padded)> + '_ {
         let [from, to] = states.map(Placement::new);
         self.nodes.iter().zip(&self.arms).map(move |(&n, arm)| {
-            let (u, before) = (to.displacement(*arm), from.displacement(*arm));
-            let v = [0, 1, 2].map(|i| (u[i] - before[i]) / dt);
-            (n as usize, Padded::new(u), Padded::new(v))
+            let (u, before) = (to.displacement(arm), from.displacement(arm));
+            (n as usize, u.into(), ((u - before) / dt).into())
         })
     }
 
@@ -445,9 +434,9 @@ impl Hub {
         let second = placement.turned_about_the_axle(&self.second);
         let across = self.moment_across;
         let coupled = |v: HubState, w: HubState| {
-            let [vx, vy] = placement.along_and_across([v.vx, v.vy]);
-            0.5 * w.omega * (vx * sz - v.vz * sx)
-                + 0.5 * w.turning * (vy * sx - vx * across - v.omega * second.yz)
+            let v_h = placement.along_and_across(&Vector3::new(v.vx, v.vy, v.vz));
+            0.5 * w.omega * (v_h.x * sz - v_h.z * sx)
+                + 0.5 * w.turning * (v_h.y * sx - v_h.x * across - v.omega * second.yz)
         };
         0.5 * self.mass * (v.vx * w.vx + v.vz * w.vz + v.vy * w.vy)
             + 0.5 * self.inertia * v.omega * w.omega
@@ -489,13 +478,14 @@ impl Hub {
             Some(sideways) => sideways.velocities([old.y, old.heading], half, dt),
             None => [old.vx, old.vy, old.turning],
         };
-        let [ax, ay] = placement.along_and_across([(vx - old.vx) / dt, (vy - old.vy) / dt]);
+        let change = Vector3::new(vx - old.vx, vy - old.vy, 0.0);
+        let a = placement.along_and_across(&(change / dt));
         let turn = Turn { rate: 0.5 * (old.turning + turning), rise: (turning - old.turning) / dt };
         let second = placement.turned_about_the_axle(&self.second);
-        let [fx, fy] = placement.along_and_across([load.force[0], load.force[1]]);
-        let [_, torque] = placement.along_and_across([load.moment[0], load.moment[1]]);
-        let fz = load.force[2];
-        let torque = torque - (sz * ax - turn.rise * second.yz - turn.rate * turn.rate * second.xz);
+        let force = placement.along_and_across(&load.force);
+        let about_axle = placement.along_and_across(&load.moment).y;
+        let torque =
+            about_axle - (sz * a.x - turn.rise * second.yz - turn.rate * turn.rate * second.xz);
         let turned_at = |omega: f64| Given::Acceleration((omega - old.omega) / dt);
         let given = match &self.spin {
             &Spin::Creepage { free, creepage, ramp } => {
@@ -507,17 +497,17 @@ impl Hub {
             &Spin::Torque { torque, ramp } => Given::Torque(torque * smoothstep(time, ramp)),
         };
         // omega at the full step is the mean of the half steps about it
-        let (_, about) = self.accelerations([sx, sz], old.omega, [fz, torque], given, dt);
+        let (_, about) = self.accelerations([sx, sz], old.omega, [force.z, torque], given, dt);
         let omega = old.omega + 0.5 * dt * about;
-        let (az, alpha) = self.accelerations([sx, sz], omega, [fz, torque], given, dt);
+        let (az, alpha) = self.accelerations([sx, sz], omega, [force.z, torque], given, dt);
         let [pull_x, pull_z] = [sx, sz].map(|s| omega * omega * s);
         let [more_x, more_y, moment_z] =
-            self.sideways_load([sx, sz], &second, [ax, ay], turn, [omega, alpha]);
-        let drive_x = alpha * sz - pull_x - fx + more_x;
-        let drive_y = more_y - fy;
+            self.sideways_load([sx, sz], &second, [a.x, a.y], turn, [omega, alpha]);
+        let drive_x = alpha * sz - pull_x - force.x + more_x;
+        let drive_y = more_y - force.y;
         let drive_z = match self.vertical {
             Vertical::Load(load) => -load,
-            Vertical::Held => self.mass * az - alpha * sx - pull_z - fz,
+            Vertical::Held => self.mass * az - alpha * sx - pull_z - force.z,
         };
         let drive_torque = match given {
             Given::Acceleration(_) => self.inertia * alpha - sx * az - torque,
@@ -534,11 +524,11 @@ impl Hub {
         new.angle += dt * new.omega;
         new.heading += dt * new.turning;
         let new = *new;
-        let [force_x, force_y] = placement.in_x_and_y([drive_x, drive_y]);
+        let drive = placement.in_x_and_y(&Vector3::new(drive_x, drive_y, drive_z));
         self.reaction = DriveReaction {
-            force_x,
-            force_y,
-            force_z: drive_z,
+            force_x: drive.x,
+            force_y: drive.y,
+            force_z: drive.z,
             torque: drive_torque,
             moment_z: drive_turn,
         };
@@ -601,12 +591,15 @@ enum Given {
 }
 
 /// The rigid displacement in a state of the hub: it turns about +y, then with the axle about +z, and moves.
+///
+/// The rotations are kept as `R - I`, so that displacements much smaller than arms have their digits.
 struct Placement {
-    state: HubState,
-    sin: f64,
-    cos_minus_one: f64,
-    /// Sine, and cosine minus one, of the heading.
-    heading: [f64; 2],
+    moved: Vector3<f64>,
+    /// Sine, and cosine minus one, of the angle turned about the axle.
+    roll: [f64; 2],
+    /// `R_y - I` and `R_z - I`.
+    rolled: Matrix3<f64>,
+    turned: Matrix3<f64>,
 }
 
 impl Placement {
@@ -616,44 +609,39 @@ impl Placement {
             let half = libm::sin(0.5 * angle);
             [libm::sin(angle), -2.0 * half * half]
         };
-        let [sin, cos_minus_one] = turn(state.angle);
-        Self { state, sin, cos_minus_one, heading: turn(state.heading) }
+        let (roll, [sin, cos]) = (turn(state.angle), turn(state.heading));
+        Self {
+            moved: Vector3::new(state.x, state.y, state.z),
+            roll,
+            rolled: Matrix3::new(roll[1], 0.0, roll[0], 0.0, 0.0, 0.0, -roll[0], 0.0, roll[1]),
+            turned: Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 0.0),
+        }
     }
 
     /// A vector in x and z of the reference configuration, turned about the axle: in x along the heading, and z.
     fn turned(&self, [x, z]: [f64; 2]) -> [f64; 2] {
-        [x + self.cos_minus_one * x + self.sin * z, z + self.cos_minus_one * z - self.sin * x]
+        let [sin, cos_minus_one] = self.roll;
+        [x + cos_minus_one * x + sin * z, z + cos_minus_one * z - sin * x]
     }
 
     /// Second moments of the reference configuration, turned about the axle.
     fn turned_about_the_axle(&self, second: &SecondMoments) -> SecondMoments {
-        second.turned(self.sin, 1.0 + self.cos_minus_one)
+        second.turned(self.roll[0], 1.0 + self.roll[1])
     }
 
-    /// Components along and across the heading of a vector in x and y.
-    fn along_and_across(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        let [sin, cos_minus_one] = self.heading;
-        [x + (cos_minus_one * x + sin * y), y + (cos_minus_one * y - sin * x)]
+    /// The vector `R_z^T v` of components along and across the heading, and along z.
+    fn along_and_across(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        v + self.turned.tr_mul(v)
     }
 
-    /// The vector in x and y of components along and across the heading.
-    fn in_x_and_y(&self, [along, across]: [f64; 2]) -> [f64; 2] {
-        let [sin, cos_minus_one] = self.heading;
-        [
-            along + (cos_minus_one * along - sin * across),
-            across + (cos_minus_one * across + sin * along),
-        ]
+    /// The vector `R_z v` of such components.
+    fn in_x_and_y(&self, v: &Vector3<f64>) -> Vector3<f64> {
+        v + self.turned * v
     }
 
-    /// Displacement (m) of the point at `arm` from the centre.
-    fn displacement(&self, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let [sin, cos_minus_one] = self.heading;
-        let rolled = self.cos_minus_one * x + self.sin * z;
-        let ahead = x + rolled;
-        [
-            rolled + (cos_minus_one * ahead - sin * y) + self.state.x,
-            cos_minus_one * y + sin * ahead + self.state.y,
-            self.cos_minus_one * z - self.sin * x + self.state.z,
-        ]
+    /// Displacement `(R_z R_y - I) r + u` (m) of the point at `arm` r from the centre.
+    fn displacement(&self, arm: &Vector3<f64>) -> Vector3<f64> {
+        let rolled = self.rolled * arm;
+        rolled + self.turned * (arm + rolled) + self.moved
     }
 }

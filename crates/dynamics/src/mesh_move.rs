@@ -24,6 +24,7 @@ use crate::window::{MeshMove, Window};
 use contact::Renumbering;
 use exact_sum::ExactSum;
 use mesh::{Padded, Source};
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// What a move of the mesh did.
@@ -70,13 +71,13 @@ impl Simulation {
 
     /// What the energies at the present state have beyond the external work (J), as its step would read them, and the
     /// forces of contact on both bodies then (N).
-    fn present(&mut self) -> Result<(f64, [[f64; 3]; 2]), RestoreError> {
+    fn present(&mut self) -> Result<(f64, [Vector3<f64>; 2]), RestoreError> {
         let state = self.snapshot();
         let report = self.step(true);
         self.restore(&state)?;
         let read = report.energies.unwrap_or_default();
         let multiplicity = self.system.multiplicity;
-        let force = report.contact.force.map(|force| force.map(|f| f / multiplicity));
+        let force = report.contact.force.map(|force| force / multiplicity);
         Ok((read.total() - read.external_work, force))
     }
 
@@ -91,9 +92,9 @@ impl Simulation {
     }
 
     /// Moves the mesh of the lower body ahead.
-    fn advance(&mut self, window: &Window, force: [f64; 3]) -> usize {
+    fn advance(&mut self, window: &Window, force: Vector3<f64>) -> usize {
         let MeshMove { nodes, sources, by, missed } = &window.lower;
-        let missed = missed.under([force[0], force[2], 0.0]);
+        let missed = missed.under([force.x, force.z, 0.0]);
         let (u, v) = (&mut self.nodes.displacement, &mut self.nodes.velocity);
         let placed = sources.iter().zip(missed);
         let placed = placed.map(|(source, missed)| sum(source.of(|n| u[n as usize]), missed));
@@ -115,11 +116,11 @@ impl Simulation {
     }
 
     /// Turns the mesh of the upper body back against the body.
-    fn turn(&mut self, window: &Window, force: [f64; 3]) -> usize {
+    fn turn(&mut self, window: &Window, force: Vector3<f64>) -> usize {
         let MeshMove { nodes, sources, by, missed } = &window.upper;
         let Some(hub) = &mut self.system.hub else { return 0 };
         // at the lowest point of the upper body, outward is down
-        let missed = missed.under([force[0], -force[2], hub.state.omega * hub.state.omega]);
+        let missed = missed.under([force.x, -force.z, hub.state.omega * hub.state.omega]);
         let reference = self.system.solid.reference();
         let (from, to) = (hub.state, HubState { angle: hub.state.angle - by, ..hub.state });
         let [from, to] = [from, to].map(|state| Carrier::new(hub.centre, state));
@@ -174,14 +175,14 @@ fn sum(a: Padded, b: Padded) -> Padded {
 
 /// The hub's rigid motion, which carries the upper body.
 struct Carrier {
-    centre: [f64; 3],
+    centre: Vector3<f64>,
     state: HubState,
     sin: f64,
     cos: f64,
 }
 
 impl Carrier {
-    fn new(centre: [f64; 3], state: HubState) -> Self {
+    fn new(centre: Vector3<f64>, state: HubState) -> Self {
         let (sin, cos) = libm::sincos(state.angle);
         Self { centre, state, sin, cos }
     }

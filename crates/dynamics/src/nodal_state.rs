@@ -6,6 +6,7 @@
 use crate::node_sums::NodeSums;
 use contact::{ContactStep, ContactSums, FreeMotion, PenaltyContact, TraceFields, TraceStep};
 use mesh::Padded;
+use nalgebra::Vector3;
 use rayon::prelude::*;
 
 /// Nodes per chunk; fixed, so that partial sums do not depend on the threads.
@@ -44,7 +45,7 @@ pub(crate) struct TraceNode {
     /// Reference position (m).
     pub(crate) reference: Padded,
     /// Velocity (m/s).
-    pub(crate) velocity: [f64; 3],
+    pub(crate) velocity: Vector3<f64>,
     /// Inverse mass (1/kg).
     pub(crate) inverse_mass: f64,
 }
@@ -106,17 +107,17 @@ impl<S: Clone + Default + Send + Sync> NodalState<S> {
         &mut self,
         contact: &mut dyn ContactStep,
         [time, dt]: [f64; 2],
-        free: impl Fn(&TraceNode, [f64; 3]) -> [f64; 3] + Sync,
+        free: impl Fn(&TraceNode, Vector3<f64>) -> Vector3<f64> + Sync,
     ) -> ContactSums {
         let Some(fields) = &mut self.trace else { return ContactSums::default() };
         fields.gather_forces(contact.loaded().iter().copied(), &self.force);
         let TraceStep { trace, reference, motion, force } = fields.step(time, dt);
-        let velocity = |node: u32, force: [f64; 3]| {
+        let velocity = |node: u32, force: Vector3<f64>| {
             let i = node as usize;
             let node = TraceNode {
                 number: trace.in_mesh(node) as usize,
                 reference: reference[i],
-                velocity: motion.velocity[i].xyz(),
+                velocity: motion.velocity[i].vector(),
                 inverse_mass: motion.inverse_mass[i],
             };
             free(&node, force)

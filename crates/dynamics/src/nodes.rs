@@ -5,6 +5,7 @@ use crate::hub::Resultant;
 use crate::nodal_state::{Chunk, NodalState, TraceNode};
 use crate::node_sums::NodeSums;
 use mesh::Padded;
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use solid::Level;
 
@@ -37,8 +38,8 @@ impl NodalState {
             kinetic: self.sum(|c| c.kinetic),
             dashpot_power: self.sum(|c| c.dashpot_power),
             reaction: Resultant {
-                force: [0, 1, 2].map(|i: usize| self.sum(|c| c.reaction.force[i])),
-                moment: [0, 1, 2].map(|i: usize| self.sum(|c| c.reaction.moment[i])),
+                force: Vector3::from_fn(|i, _| self.sum(|c| c.reaction.force[i])),
+                moment: Vector3::from_fn(|i, _| self.sum(|c| c.reaction.moment[i])),
             },
         }
     }
@@ -77,18 +78,16 @@ fn update_chunk(chunk: Chunk<'_>, update: &Update<'_>) {
 /// v^{n+1/2} of a node under `force`, as [`NodalState::advance`] gives it up to round-off.
 pub(crate) fn free_velocity(
     node: &TraceNode,
-    force: [f64; 3],
+    force: Vector3<f64>,
     dt: f64,
     dashpots: Option<&Dashpots>,
-) -> [f64; 3] {
+) -> Vector3<f64> {
     let &TraceNode { number, reference, velocity: v, inverse_mass } = node;
-    let mut after = [0, 1, 2].map(|i: usize| v[i] + dt * inverse_mass * force[i]);
+    let mut after = v + dt * inverse_mass * force;
     if let Some(d) = dashpots.filter(|_| inverse_mass > 0.0) {
         let motion = if d.upper.contains(&number) { d.motion } else { None }.unwrap_or_default();
         let (rigid, _) = motion.at(reference);
-        for i in 0..3 {
-            after[i] -= dt * d.alpha * (v[i] - rigid[i]);
-        }
+        after -= dt * d.alpha * (v - Padded(rigid).vector());
     }
     after
 }
@@ -202,10 +201,11 @@ fn damped_run<const KINETIC: bool, const SIDEWAYS: bool>(
     let about_y = by_z[0] - by_x[2];
     let reaction = if SIDEWAYS {
         let [fx, fy, fz, _] = resultant;
-        let moment = [by_y[2] - by_z[1], about_y, by_x[1] - by_y[0]];
-        Resultant { force: [fx, fy, fz], moment }
+        let moment = Vector3::new(by_y[2] - by_z[1], about_y, by_x[1] - by_y[0]);
+        Resultant { force: Vector3::new(fx, fy, fz), moment }
     } else {
-        Resultant { force: [resultant[0], 0.0, resultant[2]], moment: [0.0, about_y, 0.0] }
+        let force = Vector3::new(resultant[0], 0.0, resultant[2]);
+        Resultant { force, moment: Vector3::new(0.0, about_y, 0.0) }
     };
     NodeSums {
         kinetic: 0.5 * kinetic.iter().sum::<f64>(),

@@ -224,8 +224,8 @@ fn centrifugal(
     reference: &[Padded],
     hub: f64,
 ) -> f64 {
-    let [x, _, z] = setup.hub.centre;
-    let spin = Centrifugal { axis: [x, z + hub], omega: setup.omega };
+    let centre = setup.hub.centre;
+    let spin = Centrifugal { axis: [centre.x, centre.z + hub], omega: setup.omega };
     nodes.chunks().for_each(|Chunk { u, f, first, sums, .. }| {
         sums.pull = 0.0;
         for (i, (f, u)) in (first..).zip(f.iter_mut().zip(u)) {

@@ -1,6 +1,7 @@
 //! The velocity field at the start of rolling.
 
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 
 /// What the rolling velocity field needs to know.
 #[derive(Clone, Copy, Debug)]
@@ -8,7 +9,7 @@ pub struct RollingField {
     /// Index of the upper body among the bodies.
     pub upper: usize,
     /// Centre of the upper body in the reference configuration (m).
-    pub centre: [f64; 3],
+    pub centre: Vector3<f64>,
     /// Speed in x (m/s).
     pub speed: f64,
     /// Angular velocity about +y (rad/s).

@@ -1,5 +1,7 @@
 //! Second moments of a mass: its inertia against turns about any axis.
 
+use nalgebra::Vector3;
+
 /// Sums of mass times products of the arms in x, y and z (kg m^2).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct SecondMoments {
@@ -13,7 +15,7 @@ pub(crate) struct SecondMoments {
 
 impl SecondMoments {
     /// Of masses (kg) with these arms (m).
-    pub(crate) fn of(masses: impl Iterator<Item = (f64, [f64; 3])> + Clone) -> Self {
+    pub(crate) fn of(masses: impl Iterator<Item = (f64, Vector3<f64>)> + Clone) -> Self {
         let sum =
             |i: usize, j: usize| exact_sum::sum(masses.clone().map(|(m, arm)| m * arm[i] * arm[j]));
         let [xx, yy, zz] = [0, 1, 2].map(|i| sum(i, i));

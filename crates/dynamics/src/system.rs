@@ -10,6 +10,7 @@ use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
 use contact::{ContactSums, Method};
 use mesh::Padded;
+use nalgebra::Vector3;
 use solid::{ForceSums, Solid};
 use std::time::{Duration, Instant};
 
@@ -128,7 +129,7 @@ impl System {
         &mut self,
         nodes: &mut NodalState,
         time_and_step: [f64; 2],
-        free: impl Fn(&TraceNode, [f64; 3]) -> [f64; 3] + Sync,
+        free: impl Fn(&TraceNode, Vector3<f64>) -> Vector3<f64> + Sync,
     ) -> ContactSums {
         let sums = match &mut self.contact {
             Some(contact) => {

@@ -252,7 +252,7 @@ fn carried() -> Simulation {
     let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
     setup.velocity.fill(Padded::new([10.0, 0.0, 0.0]));
     let mut hub = Hub::new(
-        [2e-3; 3],
+        [2e-3; 3].into(),
         &mesh.bodies[0].node_sets["z+"],
         setup.system.solid.reference(),
         &setup.system.mass,
@@ -273,7 +273,8 @@ fn a_hub_whose_centre_of_mass_lies_off_its_axis_keeps_momentum_and_energy() {
     let run = |spin, vertical| {
         let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
         let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
-        let mut hub = Hub::new([0.5e-3, 0.0, 1e-3], &all, reference, mass, 0.0, spin, vertical);
+        let mut hub =
+            Hub::new([0.5e-3, 0.0, 1e-3].into(), &all, reference, mass, 0.0, spin, vertical);
         (hub.state.vx, hub.state.omega) = (3.0, 1e4);
         let total: f64 = mass.iter().sum();
         setup.system.hub = Some(hub);
@@ -312,7 +313,7 @@ fn a_counterweight_leaves_nothing_that_turns_unevenly() {
     let setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
     let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
     let (spin, vertical) = (Spin::Torque { torque: 0.0, ramp: 0.0 }, Vertical::Load(0.0));
-    let hub = Hub::new([0.5e-3, 0.0, 1e-3], &all, reference, mass, 0.0, spin, vertical);
+    let hub = Hub::new([0.5e-3, 0.0, 1e-3].into(), &all, reference, mass, 0.0, spin, vertical);
     let alone = hub.moment;
     let hub = hub.balanced(0..mesh.nodes.len(), reference, mass);
     assert_eq!(hub.counterweight, alone.map(|moment| -moment));

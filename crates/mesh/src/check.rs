@@ -1,9 +1,10 @@
 //! Checks that a mesh is fit for the solver.
 
-use crate::hex::{area, dot, norm, sub};
+use crate::hex::area;
 use crate::near::{COINCIDENT, duplicates, hanging};
 use crate::quality::scaled_jacobian;
 use crate::{Body, Face, HEX_FACES, Mesh, MeshError};
+use nalgebra::{UnitVector3, Vector3};
 
 /// Checks a mesh: ranges and indices, finite coordinates, positive Jacobians at all corners. Within each body,
 /// every node belongs to an element, no two nodes coincide, every inner face is shared by exactly two elements on
@@ -98,7 +99,7 @@ fn check_shapes(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
         }
     }
     for element in body.hexes.clone() {
-        let (corner, value) = scaled_jacobian(&mesh.hexes[element].map(|n| mesh.nodes[n as usize]));
+        let (corner, value) = scaled_jacobian(&mesh.hexes[element].map(|n| mesh.at(n)));
         // A scaled Jacobian below 1e-10 is round-off of a flat corner; NaN comes from an edge without length.
         if value.is_nan() || value <= 1e-10 {
             return Err(MeshError::NegativeJacobian { element, corner, value });
@@ -160,16 +161,14 @@ pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError>
 }
 
 /// Whether `point` lies on the quadrilateral `corners`, within `tolerance` (m).
-pub(crate) fn lies_on(point: [f64; 3], corners: [[f64; 3]; 4], tolerance: f64) -> bool {
-    let normal = area(corners);
-    let size = norm(normal);
-    let normal = normal.map(|n| n / size);
-    if dot(sub(point, corners[0]), normal).abs() > tolerance {
+pub(crate) fn lies_on(point: Vector3<f64>, corners: [Vector3<f64>; 4], tolerance: f64) -> bool {
+    let normal = UnitVector3::new_normalize(area(corners));
+    if (point - corners[0]).dot(&normal).abs() > tolerance {
         return false;
     }
     (0..4).all(|i| {
         let (a, b) = (corners[i], corners[(i + 1) % 4]);
-        let inward = crate::hex::cross(normal, sub(b, a));
-        dot(sub(point, a), inward) >= -tolerance * norm(inward)
+        let inward = normal.cross(&(b - a));
+        (point - a).dot(&inward) >= -tolerance * inward.norm()
     })
 }

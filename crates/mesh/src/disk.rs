@@ -9,6 +9,7 @@ use crate::zone::{check_crown, sag};
 use crate::{
     Allowed, Body, Face, FineZone, Grading, Mesh, MeshError, Parameter, SmoothSurface, Surface,
 };
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -86,7 +87,7 @@ fn graded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
         let r = r - sag(crown, y) * ((r - hub_radius) / thickness);
         [r * sin, y, radius - r * cos]
     })?;
-    let smooth = Some(SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown });
+    let smooth = Some(SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown });
     Ok(made.named(
         &[("hub", BOTTOM), ("tread", TOP), ("zone", ZONE)],
         &[("tread", TOP, smooth), ("zone", ZONE, smooth)],
@@ -155,7 +156,7 @@ fn extruded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
         ring.inner.iter().flat_map(|&n| (0..=ny).map(move |j| at(n, j))).collect();
     hub.sort_unstable();
 
-    let smooth = Some(SmoothSurface::Tread { centre: [0.0, 0.0, radius], radius, crown });
+    let smooth = Some(SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown });
     let body = Body {
         name: "disk".to_owned(),
         nodes: 0..nodes.len(),

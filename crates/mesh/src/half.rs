@@ -1,8 +1,9 @@
 //! The half of bodies that y = 0 is a plane of symmetry of.
 
-use crate::hex::{HEX_EDGES, norm, sub};
+use crate::hex::HEX_EDGES;
 use crate::near::COINCIDENT;
 use crate::{Body, Face, Mesh, Surface};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::ops::Range;
 use thiserror::Error;
@@ -120,11 +121,8 @@ impl Mirror {
             let hex = &mesh.hexes[element];
             let on = |side: i8| hex.iter().any(|&n| self.side(mesh, n) == side);
             if on(-1) && on(1) {
-                let mut centre = [0.0; 3];
-                for corner in hex {
-                    (0..3).for_each(|i| centre[i] += mesh.nodes[*corner as usize][i] / 8.0);
-                }
-                return Err(NotSymmetric::Across { element, centre });
+                let centre = hex.iter().map(|&corner| mesh.at(corner) / 8.0).sum::<Vector3<f64>>();
+                return Err(NotSymmetric::Across { element, centre: centre.into() });
             }
         }
         Ok(())
@@ -143,7 +141,8 @@ impl Mirror {
             let wanted = [at[0], -at[1], at[2]];
             let low = cell(wanted.map(|c| c - 2.0 * self.near));
             let high = cell(wanted.map(|c| c + 2.0 * self.near));
-            let is_image = |&n: &u32| norm(sub(mesh.nodes[n as usize], wanted)) <= 2.0 * self.near;
+            let is_image =
+                |&n: &u32| (mesh.at(n) - Vector3::from(wanted)).norm() <= 2.0 * self.near;
             let found =
                 boxes(low, high).find_map(|c| cells.get(&c)?.iter().copied().find(is_image));
             self.image[node - self.nodes.start] = match self.side(mesh, node as u32) {
@@ -248,9 +247,9 @@ fn boxes(low: [i64; 3], high: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
 
 /// Length of the shortest edge of a body (m).
 fn shortest_edge(mesh: &Mesh, body: &Body) -> f64 {
-    let edges = mesh.hexes[body.hexes.clone()].iter().flat_map(|hex| {
-        HEX_EDGES.map(|[a, b]| norm(sub(mesh.nodes[hex[b] as usize], mesh.nodes[hex[a] as usize])))
-    });
+    let edges = mesh.hexes[body.hexes.clone()]
+        .iter()
+        .flat_map(|hex| HEX_EDGES.map(|[a, b]| (mesh.at(hex[b]) - mesh.at(hex[a])).norm()));
     edges.fold(f64::INFINITY, f64::min)
 }
 

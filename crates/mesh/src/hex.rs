@@ -1,5 +1,7 @@
 //! The hexahedron: its corners, edges, faces and volume.
 
+use nalgebra::{Matrix3, Vector3};
+
 /// Corners of the six faces in the order x-, x+, y-, y+, z-, z+ of the reference cube, each
 /// counter-clockwise seen from outside. Corners are indices in `VTK_HEXAHEDRON` order ([`HEX_CORNERS`]).
 pub const HEX_FACES: [[usize; 4]; 6] =
@@ -37,26 +39,9 @@ pub const HEX_CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-pub(crate) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-pub(crate) fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
-}
-
 /// Vector area of a quadrilateral: half the product of its diagonals (m^2).
-pub(crate) fn area(p: [[f64; 3]; 4]) -> [f64; 3] {
-    let a = cross(sub(p[2], p[0]), sub(p[3], p[1]));
-    [0.5 * a[0], 0.5 * a[1], 0.5 * a[2]]
+pub(crate) fn area(p: [Vector3<f64>; 4]) -> Vector3<f64> {
+    0.5 * (p[2] - p[0]).cross(&(p[3] - p[1]))
 }
 
 /// Volume (m^3) of the trilinear hexahedron with corners `p` (m) in `VTK_HEXAHEDRON` order, negative if it is inside
@@ -65,25 +50,17 @@ pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
     let g = 1.0 / 3f64.sqrt();
     let mut volume = 0.0;
     for at in HEX_CORNERS {
-        let mut jacobian = [[0.0; 3]; 3];
+        let mut jacobian = Matrix3::zeros();
         for (corner, x) in HEX_CORNERS.iter().zip(p) {
-            let s = [
-                1.0 + corner[0] * at[0] * g,
-                1.0 + corner[1] * at[1] * g,
-                1.0 + corner[2] * at[2] * g,
-            ];
-            let gradient = [
+            let s = [0, 1, 2].map(|i: usize| 1.0 + corner[i] * at[i] * g);
+            let gradient = Vector3::new(
                 0.125 * corner[0] * s[1] * s[2],
                 0.125 * corner[1] * s[0] * s[2],
                 0.125 * corner[2] * s[0] * s[1],
-            ];
-            for i in 0..3 {
-                for j in 0..3 {
-                    jacobian[i][j] += gradient[i] * x[j];
-                }
-            }
+            );
+            jacobian += Vector3::from(*x) * gradient.transpose();
         }
-        volume += dot(jacobian[0], cross(jacobian[1], jacobian[2]));
+        volume += jacobian.column(0).dot(&jacobian.column(1).cross(&jacobian.column(2)));
     }
     volume
 }
@@ -96,14 +73,12 @@ pub fn quad_corner_areas(x: &[[f64; 3]; 4]) -> [f64; 4] {
     let g = 1.0 / 3f64.sqrt();
     let mut areas = [0.0; 4];
     for [xi, eta] in CORNERS.map(|c| [c[0] * g, c[1] * g]) {
-        let (mut a, mut b) = ([0.0; 3], [0.0; 3]);
-        for (corner, x) in CORNERS.iter().zip(x) {
-            for i in 0..3 {
-                a[i] += 0.25 * corner[0] * (1.0 + corner[1] * eta) * x[i];
-                b[i] += 0.25 * corner[1] * (1.0 + corner[0] * xi) * x[i];
-            }
+        let (mut a, mut b) = (Vector3::zeros(), Vector3::zeros());
+        for (corner, x) in CORNERS.iter().zip(x.map(Vector3::from)) {
+            a += 0.25 * corner[0] * (1.0 + corner[1] * eta) * x;
+            b += 0.25 * corner[1] * (1.0 + corner[0] * xi) * x;
         }
-        let jacobian = norm(cross(a, b));
+        let jacobian = a.cross(&b).norm();
         for (area, corner) in areas.iter_mut().zip(CORNERS) {
             *area += 0.25 * (1.0 + corner[0] * xi) * (1.0 + corner[1] * eta) * jacobian;
         }

@@ -11,6 +11,7 @@ mod box_tree;
 mod check;
 mod disk;
 mod error;
+pub mod geometry;
 mod grading;
 mod grid;
 mod half;

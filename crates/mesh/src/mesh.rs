@@ -1,6 +1,7 @@
 //! A mesh: nodes, elements, and bodies with their node sets and surfaces.
 
 use crate::SmoothSurface;
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -15,6 +16,14 @@ pub struct Mesh {
     pub bodies: Vec<Body>,
     /// Whether this is the [half](crate::half) y >= 0 of bodies that y = 0 is a plane of symmetry of.
     pub symmetric: bool,
+}
+
+impl Mesh {
+    /// Where a node is in the reference configuration (m).
+    #[inline]
+    pub fn at(&self, node: u32) -> Vector3<f64> {
+        self.nodes[node as usize].into()
+    }
 }
 
 /// One body of a [`Mesh`]: ranges and named sets, all in indices of the whole mesh.

@@ -1,7 +1,6 @@
 //! Geometric faults: coinciding nodes, and nodes on faces of which they are no corner.
 
 use crate::check::lies_on;
-use crate::hex::{norm, sub};
 use crate::{Body, Face, Mesh};
 
 /// Distance below which two nodes coincide, over the shortest edge of the body.
@@ -16,8 +15,7 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usi
     let mut shortest = f64::INFINITY;
     for hex in &mesh.hexes[body.hexes.clone()] {
         for [a, b] in crate::hex::HEX_EDGES {
-            let edge = sub(mesh.nodes[hex[b] as usize], mesh.nodes[hex[a] as usize]);
-            shortest = shortest.min(norm(edge));
+            shortest = shortest.min((mesh.at(hex[b]) - mesh.at(hex[a])).norm());
         }
     }
     let near = fraction * shortest;
@@ -43,9 +41,8 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usi
     for group in places.chunk_by(|a, b| a.0 == b.0) {
         for (i, a) in group.iter().enumerate() {
             for b in &group[i + 1..] {
-                let (a, b) = (a.1 as usize, b.1 as usize);
-                if norm(sub(mesh.nodes[a], mesh.nodes[b])) < near {
-                    return Some((a, b));
+                if (mesh.at(a.1) - mesh.at(b.1)).norm() < near {
+                    return Some((a.1 as usize, b.1 as usize));
                 }
             }
         }
@@ -57,7 +54,7 @@ pub(crate) fn duplicates(mesh: &Mesh, body: &Body, fraction: f64) -> Option<(usi
 pub(crate) fn hanging(mesh: &Mesh, boundary: &[Face]) -> Option<(u32, Face)> {
     let mut nodes = crate::grid::nodes_of(boundary);
     // Strips across x, each sorted by z: a face then meets few nodes that are far from it.
-    let at = |n: u32| mesh.nodes[n as usize];
+    let at = |n: u32| mesh.at(n);
     nodes.sort_by(|&a, &b| at(a)[0].total_cmp(&at(b)[0]));
     let strip = (nodes.len() as f64).sqrt().ceil().max(1.0) as usize;
     let mut ends = Vec::with_capacity(strip);
@@ -69,7 +66,7 @@ pub(crate) fn hanging(mesh: &Mesh, boundary: &[Face]) -> Option<(u32, Face)> {
         let p = face.nodes.map(at);
         let mut longest = 0f64;
         for i in 0..4 {
-            longest = longest.max(norm(sub(p[(i + 1) % 4], p[i])));
+            longest = longest.max((p[(i + 1) % 4] - p[i]).norm());
         }
         let near = ON_FACE * longest;
         let low = [0, 1, 2].map(|a| p[0][a].min(p[1][a]).min(p[2][a]).min(p[3][a]) - near);

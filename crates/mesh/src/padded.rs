@@ -1,6 +1,7 @@
 //! The vector type of nodal arrays.
 
-use std::ops::{Index, IndexMut};
+use nalgebra::Vector3;
+use std::ops::{AddAssign, Index, IndexMut, SubAssign};
 
 /// A vector `[x, y, z, 0]` on a 32-byte boundary: one aligned load per node in the kernels.
 ///
@@ -24,6 +25,37 @@ impl Padded {
     #[inline(always)]
     pub const fn xyz(self) -> [f64; 3] {
         [self.0[0], self.0[1], self.0[2]]
+    }
+
+    /// The vector.
+    #[inline(always)]
+    pub const fn vector(self) -> Vector3<f64> {
+        Vector3::new(self.0[0], self.0[1], self.0[2])
+    }
+}
+
+impl From<Vector3<f64>> for Padded {
+    #[inline(always)]
+    fn from(v: Vector3<f64>) -> Self {
+        Self([v.x, v.y, v.z, 0.0])
+    }
+}
+
+impl AddAssign<Vector3<f64>> for Padded {
+    #[inline(always)]
+    fn add_assign(&mut self, v: Vector3<f64>) {
+        for i in 0..3 {
+            self[i] += v[i];
+        }
+    }
+}
+
+impl SubAssign<Vector3<f64>> for Padded {
+    #[inline(always)]
+    fn sub_assign(&mut self, v: Vector3<f64>) {
+        for i in 0..3 {
+            self[i] -= v[i];
+        }
     }
 }
 

@@ -1,8 +1,9 @@
 //! Shape of the elements.
 
 use crate::Mesh;
-use crate::hex::{HEX_EDGES, area, cross, dot, hex_volume, norm, sub};
+use crate::hex::{HEX_EDGES, area, hex_volume};
 use crate::{HEX_FACES, hex};
+use nalgebra::Vector3;
 
 /// Measures of the element shapes of a mesh.
 ///
@@ -49,7 +50,7 @@ pub fn quality(mesh: &Mesh) -> Quality {
         volume: 0.0,
     };
     for (element, corners) in mesh.hexes.iter().enumerate() {
-        let p = corners.map(|n| mesh.nodes[n as usize]);
+        let p = corners.map(|n| mesh.at(n));
         let (_, jacobian) = scaled_jacobian(&p);
         q.mean_scaled_jacobian += jacobian;
         if jacobian < q.min_scaled_jacobian {
@@ -58,7 +59,7 @@ pub fn quality(mesh: &Mesh) -> Quality {
         }
         let (mut shortest, mut longest) = (f64::INFINITY, 0f64);
         for [a, b] in HEX_EDGES {
-            let edge = norm(sub(p[b], p[a]));
+            let edge = (p[b] - p[a]).norm();
             shortest = shortest.min(edge);
             longest = longest.max(edge);
         }
@@ -67,9 +68,9 @@ pub fn quality(mesh: &Mesh) -> Quality {
         q.max_edge = q.max_edge.max(longest);
         let mut largest = 0f64;
         for face in HEX_FACES {
-            largest = largest.max(norm(area(face.map(|c| p[c]))));
+            largest = largest.max(area(face.map(|c| p[c])).norm());
         }
-        let volume = hex_volume(&p);
+        let volume = hex_volume(&p.map(Into::into));
         q.volume += volume;
         if volume / largest < q.min_thickness {
             q.min_thickness = volume / largest;
@@ -81,11 +82,11 @@ pub fn quality(mesh: &Mesh) -> Quality {
 }
 
 /// Corner with the least scaled Jacobian, and its value; NaN where an edge has no length.
-pub(crate) fn scaled_jacobian(p: &[[f64; 3]; 8]) -> (usize, f64) {
+pub(crate) fn scaled_jacobian(p: &[Vector3<f64>; 8]) -> (usize, f64) {
     let mut worst = (0, f64::INFINITY);
     for (corner, neighbours) in hex::NEIGHBOURS.iter().enumerate() {
-        let [a, b, c] = neighbours.map(|n| sub(p[n], p[corner]));
-        let value = dot(a, cross(b, c)) / (norm(a) * norm(b) * norm(c));
+        let [a, b, c] = neighbours.map(|n| p[n] - p[corner]);
+        let value = a.dot(&b.cross(&c)) / (a.norm() * b.norm() * c.norm());
         if value.is_nan() {
             return (corner, value);
         }

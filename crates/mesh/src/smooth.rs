@@ -1,12 +1,14 @@
 //! The exact surfaces on which the nodes of generated faces lie.
 
+use nalgebra::{UnitVector3, Vector3};
+
 /// An exact surface in the undeformed state, by which contact on facets is corrected for curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SmoothSurface {
     /// Outside of a disk that turns about the line through `centre` parallel to `y`.
     Tread {
         /// Centre of the disk (m); its `y` is that of the crown's apex.
-        centre: [f64; 3],
+        centre: Vector3<f64>,
         /// Rolling radius at the apex (m).
         radius: f64,
         /// Transverse radius of the crown (m); `None` for a straight tread.
@@ -23,46 +25,46 @@ pub enum SmoothSurface {
 
 impl SmoothSurface {
     /// Signed distance (m) from `p` (m), a point near the surface, to the surface: positive inside the body.
-    pub fn offset(&self, p: [f64; 3]) -> f64 {
+    pub fn offset(&self, p: Vector3<f64>) -> f64 {
         match *self {
             Self::Tread { centre, radius, crown } => {
-                let rho = libm::hypot(p[0] - centre[0], p[2] - centre[2]);
+                let rho = libm::hypot(p.x - centre.x, p.z - centre.z);
                 match crown {
                     None => radius - rho,
-                    Some(c) => c - libm::hypot(rho - (radius - c), p[1] - centre[1]),
+                    Some(c) => c - libm::hypot(rho - (radius - c), p.y - centre.y),
                 }
             }
             Self::Top { apex, crown } => match crown {
-                None => apex - p[2],
-                Some(c) => c - libm::hypot(p[2] - (apex - c), p[1]),
+                None => apex - p.z,
+                Some(c) => c - libm::hypot(p.z - (apex - c), p.y),
             },
         }
     }
 
     /// Outward unit normal at the closest-point projection of `p` (m), a point near the surface: the negative
     /// gradient of [`offset`](Self::offset). NaN on the axis of a tread.
-    pub fn normal(&self, p: [f64; 3]) -> [f64; 3] {
-        match *self {
+    pub fn normal(&self, p: Vector3<f64>) -> UnitVector3<f64> {
+        UnitVector3::new_unchecked(match *self {
             Self::Tread { centre, radius, crown } => {
-                let (dx, dz) = (p[0] - centre[0], p[2] - centre[2]);
+                let (dx, dz) = (p.x - centre.x, p.z - centre.z);
                 let rho = libm::hypot(dx, dz);
                 match crown {
-                    None => [dx / rho, 0.0, dz / rho],
+                    None => Vector3::new(dx / rho, 0.0, dz / rho),
                     Some(c) => {
-                        let (a, b) = (rho - (radius - c), p[1] - centre[1]);
+                        let (a, b) = (rho - (radius - c), p.y - centre.y);
                         let d = libm::hypot(a, b);
-                        [a / d * dx / rho, b / d, a / d * dz / rho]
+                        Vector3::new(a / d * dx / rho, b / d, a / d * dz / rho)
                     }
                 }
             }
             Self::Top { apex, crown } => match crown {
-                None => [0.0, 0.0, 1.0],
+                None => Vector3::z(),
                 Some(c) => {
-                    let (a, b) = (p[2] - (apex - c), p[1]);
+                    let (a, b) = (p.z - (apex - c), p.y);
                     let d = libm::hypot(a, b);
-                    [0.0, b / d, a / d]
+                    Vector3::new(0.0, b / d, a / d)
                 }
             },
-        }
+        })
     }
 }

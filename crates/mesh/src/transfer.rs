@@ -6,6 +6,7 @@
 //! flatten a field of positive curvature at every move, as if a force acted.
 
 use crate::{Body, BoxTree, HEX_CORNERS, Mesh, Padded};
+use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::PI;
 
 /// Two places closer than this, over the shortest distance that matters, are one.
@@ -98,9 +99,10 @@ impl Source {
 /// Where each node of `body` finds the material that lies `ahead` of it (m) along the first coordinate of `chart`. Places
 /// beyond the end of a straight body are moved back to it. `size` is the shortest distance that matters (m).
 pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f64) -> Vec<Source> {
-    let at: Vec<[f64; 3]> = mesh.nodes[body.nodes.clone()].iter().map(|&x| chart.of(x)).collect();
+    let nodes = mesh.nodes[body.nodes.clone()].iter();
+    let at: Vec<Vector3<f64>> = nodes.map(|&x| chart.of(x).into()).collect();
     let first = body.nodes.start as u32;
-    let elements: Vec<[[f64; 3]; 8]> = mesh.hexes[body.hexes.clone()]
+    let elements: Vec<[Vector3<f64>; 8]> = mesh.hexes[body.hexes.clone()]
         .iter()
         .map(|hex| unwrapped(hex.map(|n| at[(n - first) as usize]), chart))
         .collect();
@@ -108,21 +110,21 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
     let tree = BoxTree::new(elements.iter().map(|corners| around(corners, slack)));
     let mut near = Vec::new();
     let around_element = Neighbours::new(mesh, body);
-    let end = at.iter().fold(f64::NEG_INFINITY, |end, q| end.max(q[0]));
-    let source = |q: &[f64; 3]| {
-        let place = [q[0] + ahead, q[1], q[2]];
+    let end = at.iter().fold(f64::NEG_INFINITY, |end, q| end.max(q.x));
+    let source = |q: &Vector3<f64>| {
+        let place = Vector3::new(q.x + ahead, q.y, q.z);
         let places = match chart.turn() {
-            None => vec![[place[0].min(end), q[1], q[2]]],
-            Some(turn) => [0.0, -turn, turn].map(|t| [place[0] + t, q[1], q[2]]).to_vec(),
+            None => vec![Vector3::new(place.x.min(end), q.y, q.z)],
+            Some(turn) => [0.0, -turn, turn].map(|t| Vector3::new(place.x + t, q.y, q.z)).to_vec(),
         };
-        let mut best: Option<(f64, u32, [f64; 3])> = None;
+        let mut best: Option<(f64, u32, Vector3<f64>)> = None;
         for place in places {
             // a place may lie beyond a curved side by the sag of an edge
             tree.near([place, place], 0.5 * size, &mut near);
             for &element in &near {
                 let corners = &elements[element as usize];
                 let hex = mesh.hexes[body.hexes.start + element as usize];
-                if let Some(corner) = corners.iter().position(|&c| distance(c, place) < slack) {
+                if let Some(corner) = corners.iter().position(|c| (c - place).norm() < slack) {
                     return Source::Node(hex[corner]);
                 }
                 let inner = coordinates(corners, place);
@@ -138,7 +140,7 @@ pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f
                 let weights = shape(inner.map(|c| c.clamp(-1.0, 1.0)));
                 let place = mean(corners, weights);
                 let nodes = around_element.nodes(element as usize);
-                let stencil: Vec<[f64; 3]> = nodes
+                let stencil: Vec<_> = nodes
                     .iter()
                     .map(|&n| unwrapped_to(at[(n - first) as usize], place, chart))
                     .collect();
@@ -198,90 +200,86 @@ impl<'a> Neighbours<'a> {
 
 /// Weights of `points` with which they give the value at `place` of the quadratic polynomial that fits best there; of the
 /// linear one where the points do not determine a quadratic one. Distances count in terms of `extent` in each direction.
-fn least_squares(points: &[[f64; 3]], place: [f64; 3], extent: [f64; 3]) -> Option<Vec<f64>> {
-    let scaled: Vec<[f64; 3]> =
-        points.iter().map(|p| [0, 1, 2].map(|i| (p[i] - place[i]) / extent[i])).collect();
+fn least_squares(
+    points: &[Vector3<f64>],
+    place: Vector3<f64>,
+    extent: Vector3<f64>,
+) -> Option<Vec<f64>> {
+    let scaled: Vec<_> = points.iter().map(|p| (p - place).component_div(&extent)).collect();
     weights_of_fit::<10>(&scaled).or_else(|| weights_of_fit::<4>(&scaled))
 }
 
 /// The weights of a fit with the first `N` of the terms 1, x, y, z, xx, yy, zz, xy, yz, zx, at the origin.
-fn weights_of_fit<const N: usize>(points: &[[f64; 3]]) -> Option<Vec<f64>> {
-    let terms = |[x, y, z]: [f64; 3]| {
+fn weights_of_fit<const N: usize>(points: &[Vector3<f64>]) -> Option<Vec<f64>> {
+    let terms = |p: &Vector3<f64>| {
+        let [x, y, z] = (*p).into();
         let all = [1.0, x, y, z, x * x, y * y, z * z, x * y, y * z, z * x];
-        std::array::from_fn::<f64, N, _>(|i| all[i])
+        SVector::<f64, N>::from_fn(|i, _| all[i])
     };
-    let closeness = |p: &[f64; 3]| 1.0 / (NEAR + p.iter().map(|c| c * c).sum::<f64>());
-    let mut normal = [[0.0; N]; N];
+    let closeness = |p: &Vector3<f64>| 1.0 / (NEAR + p.norm_squared());
+    let mut normal = SMatrix::zeros();
     for p in points {
-        let (t, w) = (terms(*p), closeness(p));
-        for i in 0..N {
-            for j in 0..N {
-                normal[i][j] += w * t[i] * t[j];
-            }
-        }
+        let t = terms(p);
+        normal += closeness(p) * t * t.transpose();
     }
     let solution = first_unit_solution(normal)?;
-    let weight = |p: &[f64; 3]| {
-        let fit: f64 = terms(*p).iter().zip(solution).map(|(t, c)| t * c).sum();
+    let weight = |p: &Vector3<f64>| {
+        let fit: f64 = terms(p).iter().zip(&solution).map(|(t, c)| t * c).sum();
         closeness(p) * fit
     };
     Some(points.iter().map(weight).collect())
 }
 
 /// x of a x = (1, 0, 0 ...) by Cholesky's factors, if `a` is safely positive definite.
-fn first_unit_solution<const N: usize>(mut a: [[f64; N]; N]) -> Option<[f64; N]> {
+fn first_unit_solution<const N: usize>(mut a: SMatrix<f64, N, N>) -> Option<SVector<f64, N>> {
     for k in 0..N {
-        let diagonal = a[k][k];
-        let pivot = diagonal - (0..k).map(|j| a[k][j] * a[k][j]).sum::<f64>();
+        let diagonal = a[(k, k)];
+        let pivot = diagonal - (0..k).map(|j| a[(k, j)] * a[(k, j)]).sum::<f64>();
         if pivot.is_nan() || pivot < REGULAR * diagonal {
             return None;
         }
         let root = pivot.sqrt();
-        a[k][k] = root;
+        a[(k, k)] = root;
         for i in k + 1..N {
-            let dot: f64 = (0..k).map(|j| a[i][j] * a[k][j]).sum();
-            a[i][k] = (a[i][k] - dot) / root;
+            let dot: f64 = (0..k).map(|j| a[(i, j)] * a[(k, j)]).sum();
+            a[(i, k)] = (a[(i, k)] - dot) / root;
         }
     }
-    let mut x = [0.0; N];
+    let mut x = SVector::zeros();
     for i in 0..N {
-        let dot: f64 = (0..i).map(|j| a[i][j] * x[j]).sum();
-        x[i] = (f64::from(u8::from(i == 0)) - dot) / a[i][i];
+        let dot: f64 = (0..i).map(|j| a[(i, j)] * x[j]).sum();
+        x[i] = (f64::from(u8::from(i == 0)) - dot) / a[(i, i)];
     }
     for i in (0..N).rev() {
-        let dot: f64 = (i + 1..N).map(|j| a[j][i] * x[j]).sum();
-        x[i] = (x[i] - dot) / a[i][i];
+        let dot: f64 = (i + 1..N).map(|j| a[(j, i)] * x[j]).sum();
+        x[i] = (x[i] - dot) / a[(i, i)];
     }
     Some(x)
 }
 
 /// The extent of an element along the coordinates (m).
-fn extent(corners: &[[f64; 3]; 8]) -> [f64; 3] {
-    [0, 1, 2].map(|i| {
-        let along = corners.iter().map(|c| c[i]);
-        let [low, high] =
-            along.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
-        high - low
-    })
+fn extent(corners: &[Vector3<f64>; 8]) -> Vector3<f64> {
+    let [low, high] = hull(corners);
+    high - low
 }
 
-fn mean(corners: &[[f64; 3]; 8], weights: [f64; 8]) -> [f64; 3] {
-    [0, 1, 2].map(|i| corners.iter().zip(weights).map(|(c, w)| w * c[i]).sum())
+fn mean(corners: &[Vector3<f64>; 8], weights: [f64; 8]) -> Vector3<f64> {
+    corners.iter().zip(weights).map(|(c, w)| w * c).sum()
 }
 
 /// A place of a ring, no more than half a turn from another.
-fn unwrapped_to(mut q: [f64; 3], other: [f64; 3], chart: Chart) -> [f64; 3] {
+fn unwrapped_to(mut q: Vector3<f64>, other: Vector3<f64>, chart: Chart) -> Vector3<f64> {
     if let Some(turn) = chart.turn() {
-        q[0] -= turn * ((q[0] - other[0]) / turn).round();
+        q.x -= turn * ((q.x - other.x) / turn).round();
     }
     q
 }
 
 /// The node nearest to a place that is near no element.
-fn nearest(at: &[[f64; 3]], place: [f64; 3]) -> u32 {
+fn nearest(at: &[Vector3<f64>], place: Vector3<f64>) -> u32 {
     let mut best = (f64::INFINITY, 0);
-    for (node, &q) in (0..).zip(at) {
-        let d = distance(q, place);
+    for (node, q) in (0..).zip(at) {
+        let d = (q - place).norm();
         if d < best.0 {
             best = (d, node);
         }
@@ -290,52 +288,40 @@ fn nearest(at: &[[f64; 3]], place: [f64; 3]) -> u32 {
 }
 
 /// The corners of an element, none more than half a turn from the first.
-fn unwrapped(mut corners: [[f64; 3]; 8], chart: Chart) -> [[f64; 3]; 8] {
+fn unwrapped(mut corners: [Vector3<f64>; 8], chart: Chart) -> [Vector3<f64>; 8] {
     let first = corners[0];
     corners.iter_mut().for_each(|c| *c = unwrapped_to(*c, first, chart));
     corners
 }
 
-fn around(points: &[[f64; 3]], slack: f64) -> [[f64; 3]; 2] {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for p in points {
-        for i in 0..3 {
-            low[i] = low[i].min(p[i] - slack);
-            high[i] = high[i].max(p[i] + slack);
-        }
-    }
-    [low, high]
+fn around(points: &[Vector3<f64>], slack: f64) -> [Vector3<f64>; 2] {
+    let [low, high] = hull(points);
+    [low.add_scalar(-slack), high.add_scalar(slack)]
 }
 
-fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt()
+fn hull(points: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
+    points.iter().fold(nothing, |[low, high], p| [low.inf(p), high.sup(p)])
 }
 
 /// The trilinear shape functions at coordinates from -1 to 1.
-fn shape(inner: [f64; 3]) -> [f64; 8] {
+fn shape(inner: Vector3<f64>) -> [f64; 8] {
     HEX_CORNERS.map(|c| (0..3).map(|i| 0.5 * (1.0 + c[i] * inner[i])).product())
 }
 
 /// Coordinates from -1 to 1 of a point in an element, by Newton's method; infinite where it finds none.
-fn coordinates(corners: &[[f64; 3]; 8], point: [f64; 3]) -> [f64; 3] {
-    let mut inner = [0.0; 3];
+fn coordinates(corners: &[Vector3<f64>; 8], point: Vector3<f64>) -> Vector3<f64> {
+    let mut inner = Vector3::zeros();
     for _ in 0..STEPS {
         let weights = shape(inner);
-        let mut rest = point;
-        let mut jacobian = [[0.0; 3]; 3];
+        let (mut rest, mut jacobian) = (point, Matrix3::zeros());
         for (corner, (c, w)) in HEX_CORNERS.iter().zip(corners.iter().zip(weights)) {
-            for i in 0..3 {
-                rest[i] -= w * c[i];
-                for (j, slope) in slopes(corner, inner).into_iter().enumerate() {
-                    jacobian[i][j] += slope * c[i];
-                }
-            }
+            rest -= w * c;
+            jacobian += c * slopes(corner, inner).transpose();
         }
-        let Some(step) = solved(jacobian, rest) else { return [f64::INFINITY; 3] };
+        let Some(step) = solved(jacobian, rest) else { return Vector3::repeat(f64::INFINITY) };
         // a step is at most the element: far points shall not leave for good
-        for i in 0..3 {
-            inner[i] += step[i].clamp(-1.0, 1.0);
-        }
+        inner += step.map(|s| s.clamp(-1.0, 1.0));
         if step.iter().all(|s| s.abs() < 1e-13) {
             break;
         }
@@ -344,29 +330,24 @@ fn coordinates(corners: &[[f64; 3]; 8], point: [f64; 3]) -> [f64; 3] {
 }
 
 /// Derivatives of the shape function of a corner.
-fn slopes(corner: &[f64; 3], inner: [f64; 3]) -> [f64; 3] {
+fn slopes(corner: &[f64; 3], inner: Vector3<f64>) -> Vector3<f64> {
     let factor = [0, 1, 2].map(|i| 0.5 * (1.0 + corner[i] * inner[i]));
-    [
+    Vector3::new(
         0.5 * corner[0] * factor[1] * factor[2],
         0.5 * corner[1] * factor[2] * factor[0],
         0.5 * corner[2] * factor[0] * factor[1],
-    ]
+    )
 }
 
 /// x of a x = b by Cramer's rule, if `a` is regular.
-fn solved(a: [[f64; 3]; 3], b: [f64; 3]) -> Option<[f64; 3]> {
-    let determinant = |m: [[f64; 3]; 3]| {
-        m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
-            - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0])
-            + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])
-    };
-    let d = determinant(a);
+fn solved(a: Matrix3<f64>, b: Vector3<f64>) -> Option<Vector3<f64>> {
     let with_column = |j: usize| {
         let mut m = a;
-        (0..3).for_each(|i| m[i][j] = b[i]);
-        determinant(m) / d
+        m.set_column(j, &b);
+        m.determinant()
     };
-    let x = [0, 1, 2].map(with_column);
+    let d = a.determinant();
+    let x = Vector3::from_fn(|j, _| with_column(j) / d);
     x.iter().all(|c| c.is_finite()).then_some(x)
 }
 

@@ -2,26 +2,16 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use mesh::{Bar, Disk, Face, FineZone, Grading, Mesh, bar, check, disk, quality};
+use nalgebra::Vector3;
 use proptest::prelude::*;
 
-fn centre(mesh: &Mesh, nodes: &[u32]) -> [f64; 3] {
-    [0, 1, 2]
-        .map(|a| nodes.iter().map(|&n| mesh.nodes[n as usize][a]).sum::<f64>() / nodes.len() as f64)
+fn centre(mesh: &Mesh, nodes: &[u32]) -> Vector3<f64> {
+    nodes.iter().map(|&n| mesh.at(n)).sum::<Vector3<f64>>() / nodes.len() as f64
 }
 
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn normal(mesh: &Mesh, face: &Face) -> [f64; 3] {
-    let p = face.nodes.map(|n| mesh.nodes[n as usize]);
-    let (a, b) = (sub(p[2], p[0]), sub(p[3], p[1]));
-    let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    n.map(|x| x / dot(n, n).sqrt())
+fn normal(mesh: &Mesh, face: &Face) -> Vector3<f64> {
+    let p = face.nodes.map(|n| mesh.at(n));
+    (p[2] - p[0]).cross(&(p[3] - p[1])).normalize()
 }
 
 /// Every face points away from its element; those of a smooth surface lie on it.
@@ -32,14 +22,14 @@ fn check_surfaces(mesh: &Mesh) {
             for face in &surface.faces {
                 let n = normal(mesh, face);
                 let inner = centre(mesh, &mesh.hexes[face.hex as usize]);
-                assert!(dot(n, sub(centre(mesh, &face.nodes), inner)) > 0.0, "{name} {face:?}");
+                assert!(n.dot(&(centre(mesh, &face.nodes) - inner)) > 0.0, "{name} {face:?}");
                 let Some(smooth) = surface.smooth else {
                     continue;
                 };
                 for node in face.nodes {
-                    let p = mesh.nodes[node as usize];
+                    let p = mesh.at(node);
                     assert!(smooth.offset(p).abs() < 1e-12, "{name}: {}", smooth.offset(p));
-                    assert!(dot(n, smooth.normal(p)) > 0.9, "{name} {face:?}");
+                    assert!(n.dot(&smooth.normal(p)) > 0.9, "{name} {face:?}");
                 }
             }
         }

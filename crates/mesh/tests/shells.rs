@@ -91,13 +91,13 @@ fn every_inner_face_has_two_elements_and_the_others_lie_on_the_outside() {
     let top = body(&b).surfaces["top"].smooth.unwrap();
     type Sides<'a> = Vec<Box<dyn Fn([f64; 3]) -> bool + 'a>>;
     let of_disk: Sides = vec![
-        Box::new(|p| on(tread.offset(p), 0.0)),
+        Box::new(|p| on(tread.offset(p.into()), 0.0)),
         Box::new(|p| on(libm::hypot(p[0], p[2] - 0.46), 0.10)),
         Box::new(|p| p[1] == 0.03),
         Box::new(|p| p[1] == -0.03),
     ];
     let of_bar: Sides = vec![
-        Box::new(|p| on(top.offset(p), 0.0)),
+        Box::new(|p| on(top.offset(p.into()), 0.0)),
         Box::new(|p| p[2] == -0.07),
         Box::new(|p| p[1] == 0.03),
         Box::new(|p| p[1] == -0.03),
@@ -188,7 +188,7 @@ fn nodes_of_tread_top_hub_and_ends_lie_exactly_where_their_names_say() {
             assert_eq!(of_faces.len(), set.len());
             let smooth = surface.smooth.unwrap();
             assert!(set.iter().all(|n| of_faces.contains(n)));
-            assert!(set.iter().all(|&n| smooth.offset(mesh.nodes[n as usize]).abs() < 1e-12));
+            assert!(set.iter().all(|&n| smooth.offset(mesh.at(n)).abs() < 1e-12));
         }
     }
     let [d, b] = both(&zone(2e-3));

@@ -9,6 +9,7 @@ use crate::link::Link;
 use crate::skyline::Skyline;
 use crate::space::{CHUNK, Group};
 use mesh::{HEX_EDGES, Mesh, Padded};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -62,9 +63,13 @@ impl Frame {
 
     /// Motion `t + w x arm` of a point under `[t, w]`.
     #[inline(always)]
-    fn motion(&self, x: &Padded, q: &[f64]) -> [f64; 3] {
+    fn motion(&self, x: &Padded, q: &[f64]) -> Vector3<f64> {
         let [a, b, c] = self.arm(x);
-        [q[0] + q[4] * c - q[5] * b, q[1] + q[5] * a - q[3] * c, q[2] + q[3] * b - q[4] * a]
+        Vector3::new(
+            q[0] + q[4] * c - q[5] * b,
+            q[1] + q[5] * a - q[3] * c,
+            q[2] + q[3] * b - q[4] * a,
+        )
     }
 
     /// Adds the resultant `[f, arm x f]` of a force.
@@ -191,7 +196,7 @@ impl Coarse {
             for (node, weight) in [(link.slave, 1.0)].into_iter().chain(projection) {
                 let c = self.cluster[node];
                 if c != NONE {
-                    let pull = Padded::new(link.normal.map(|n| weight * n));
+                    let pull = (weight * *link.normal).into();
                     let entry = row.entry(c).or_insert([0.0; MODES]);
                     self.frames[c as usize].collect(&reference[node], &pull, entry);
                 }
@@ -246,9 +251,9 @@ impl Coarse {
 
     /// Motion of a node at `x` with its cluster; none if it belongs to none.
     #[inline(always)]
-    pub(crate) fn motion(&self, node: usize, x: &Padded) -> [f64; 3] {
+    pub(crate) fn motion(&self, node: usize, x: &Padded) -> Vector3<f64> {
         match self.cluster[node] {
-            NONE => [0.0; 3],
+            NONE => Vector3::zeros(),
             c => self.frames[c as usize].motion(x, &self.vector[MODES * c as usize..][..MODES]),
         }
     }
@@ -281,7 +286,7 @@ impl Coarse {
         z.par_chunks_mut(CHUNK).enumerate().for_each(|(chunk, z)| {
             for (i, z) in z.iter_mut().enumerate() {
                 let node = CHUNK * chunk + i;
-                *z = Padded::new(self.motion(node, &reference[node]));
+                *z = self.motion(node, &reference[node]).into();
             }
         });
         for (g, group) in groups.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use contact::Gap;
 use mesh::Padded;
+use nalgebra::UnitVector3;
 
 /// The row of the gap's derivative: `u -> n . (u_s - sum w_J u_J)`.
 #[derive(Clone, Debug)]
@@ -9,7 +10,7 @@ pub(crate) struct Link {
     pub(crate) slave: usize,
     /// Nodes of the master and their weights.
     pub(crate) projection: Vec<(usize, f64)>,
-    pub(crate) normal: [f64; 3],
+    pub(crate) normal: UnitVector3<f64>,
 }
 
 impl Link {
@@ -23,14 +24,14 @@ impl Link {
 
     /// Normal component of the motion `w` at the slave.
     pub(crate) fn slave_normal(&self, w: &[Padded]) -> f64 {
-        dot(self.normal, w[self.slave])
+        self.normal.dot(&w[self.slave].vector())
     }
 
     /// Normal component of the motion `w` of the projection.
     pub(crate) fn projection_normal(&self, w: &[Padded]) -> f64 {
         let mut sum = 0.0;
         for &(node, weight) in &self.projection {
-            sum += weight * dot(self.normal, w[node]);
+            sum += weight * self.normal.dot(&w[node].vector());
         }
         sum
     }
@@ -50,12 +51,6 @@ impl Link {
 
     /// Adds `value` times the normal at a node.
     pub(crate) fn add(&self, node: usize, value: f64, to: &mut [Padded]) {
-        for i in 0..3 {
-            to[node][i] += value * self.normal[i];
-        }
+        to[node] += value * *self.normal;
     }
-}
-
-fn dot(n: [f64; 3], w: Padded) -> f64 {
-    n[0] * w[0] + n[1] * w[1] + n[2] * w[2]
 }

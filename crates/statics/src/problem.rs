@@ -3,6 +3,7 @@
 use crate::supports::Supports;
 use contact::{GapFunction, PenaltyContact};
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// The contact of two bodies, without friction.
@@ -21,7 +22,7 @@ pub enum Contact<'a> {
 #[derive(Clone, Debug)]
 pub struct Spin<'a> {
     /// A point of the axis in the reference configuration (m).
-    pub centre: [f64; 3],
+    pub centre: Vector3<f64>,
     /// Angular velocity (rad/s).
     pub omega: f64,
     /// Nodes of the body.

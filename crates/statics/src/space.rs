@@ -10,6 +10,7 @@ use crate::coarse::Coarse;
 use crate::link::Link;
 use crate::supports::{Axis, Supports};
 use mesh::{Mesh, Padded};
+use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
 
 /// Nodes per parallel chunk; fixed, so that sums do not depend on the number of threads.
@@ -187,9 +188,8 @@ impl Space {
                 *sum = 0.0;
                 for (i, ((z, r), k)) in z.iter_mut().zip(r).zip(inverse).enumerate() {
                     let node = CHUNK * chunk + i;
-                    let fine = times(k, r);
                     let whole = coarse.motion(node, &reference[node]);
-                    *z = Padded::new([0, 1, 2].map(|i| fine[i] + whole[i]));
+                    *z = (times(k, r.vector()) + whole).into();
                     *sum += product(r, z);
                 }
             },
@@ -260,7 +260,7 @@ impl<'a> Blocks<'a> {
     }
 
     /// Adds `k n n^T` at a node that is free.
-    fn add(&mut self, node: usize, k: f64, n: [f64; 3]) {
+    fn add(&mut self, node: usize, k: f64, n: UnitVector3<f64>) {
         if self.space.is_free(node) {
             let block = self.sums.entry(node).or_insert(self.space.diagonal[node]);
             let outer =
@@ -295,18 +295,17 @@ fn inverted(k: &Symmetric) -> Symmetric {
 }
 
 /// `n . K n`.
-fn along(k: &Symmetric, n: [f64; 3]) -> f64 {
-    let kn = times(k, &Padded::new(n));
-    kn[0] * n[0] + kn[1] * n[1] + kn[2] * n[2]
+fn along(k: &Symmetric, n: UnitVector3<f64>) -> f64 {
+    times(k, *n).dot(&n)
 }
 
 #[inline(always)]
-fn times(k: &Symmetric, r: &Padded) -> [f64; 3] {
-    [
+fn times(k: &Symmetric, r: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(
         k[0] * r[0] + k[3] * r[1] + k[5] * r[2],
         k[3] * r[0] + k[1] * r[1] + k[4] * r[2],
         k[5] * r[0] + k[4] * r[1] + k[2] * r[2],
-    ]
+    )
 }
 
 #[inline(always)]

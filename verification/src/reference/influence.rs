@@ -292,7 +292,7 @@ impl Projection {
         surface: &Surface,
         mesh: &Mesh,
     ) -> Result<Self, InfluenceError> {
-        let n = surface.smooth.map_or([0.0, 0.0, 1.0], |s| s.normal(point.at));
+        let n = surface.smooth.map_or([0.0, 0.0, 1.0], |s| (*s.normal(point.at.into())).into());
         let n = if n[2] < 0.0 { n.map(|c| -c) } else { n };
         let t1 = unit([1.0 - n[0] * n[0], -n[0] * n[1], -n[0] * n[2]]);
         let t2 =

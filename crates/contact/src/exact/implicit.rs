@@ -15,18 +15,16 @@ use crate::face::Positions;
 use crate::point::{State, follow_first};
 use crate::search::Listed;
 use crate::sums::Accumulator;
-use crate::vector::{Vec3, add, axpy, dot, norm, scale, sub};
 use crate::{ContactSums, Motion};
 use mesh::Padded;
+use mesh::geometry::tangential;
+use nalgebra::{Matrix3, Matrix3x2, Vector3};
 
 /// Sweeps over the dense operator at most.
 const SWEEPS: usize = 500;
 
 /// Iterations of the power method.
 const POWERS: usize = 12;
-
-/// A matrix by rows.
-pub type Matrix3 = [[f64; 3]; 3];
 
 /// What the forces of a call became.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,11 +41,11 @@ pub(crate) struct ImplicitStep {
     /// Constraints to solve for, by their place in the list of the slaves' side.
     solved: Vec<u32>,
     /// The Delassus operator of these, by rows (m/(N s)).
-    delassus: Vec<Matrix3>,
+    delassus: Vec<Matrix3<f64>>,
     /// Relative velocity of each of them (m/s).
-    rates: Vec<Vec3>,
+    rates: Vec<Vector3<f64>>,
     /// Normal force and friction (N) before a correction.
-    before: Vec<(f64, Vec3)>,
+    before: Vec<(f64, Vector3<f64>)>,
     /// Most sweeps of a correction in the step.
     sweeps: usize,
     /// The constraints as they were when the step began.
@@ -56,7 +54,7 @@ pub(crate) struct ImplicitStep {
     masters: Vec<u32>,
     place: Vec<u32>,
     /// Velocity of each of `masters` under unit forces on one constraint.
-    answer: Vec<Matrix3>,
+    answer: Vec<Matrix3<f64>>,
 }
 
 impl ExactContact {
@@ -119,7 +117,7 @@ impl ExactContact {
 
     /// Sets the Delassus operator up from `compliance`: the velocity (m/s) of the first node of the trace under unit forces (N) on
     /// the second, of the same side.
-    pub fn set_compliance(&mut self, compliance: &dyn Fn(u32, u32) -> Matrix3) {
+    pub fn set_compliance(&mut self, compliance: &dyn Fn(u32, u32) -> Matrix3<f64>) {
         let mut step = std::mem::take(&mut self.implicit);
         let [own, master] = [&self.sides[self.slave], &self.sides[1 - self.slave]];
         let constraints = &self.constraints[self.slave];
@@ -138,24 +136,23 @@ impl ExactContact {
         }
         let n = solved.len();
         delassus.clear();
-        delassus.resize(n * n, [[0.0; 3]; 3]);
+        delassus.resize(n * n, Matrix3::zeros());
         for (k, &on) in solved.iter().enumerate() {
             let on = &constraints[on as usize];
             answer.clear();
             answer.extend(masters.iter().map(|&node| {
-                let mut sum = [[0.0; 3]; 3];
-                for master_node in &self.master_nodes[on.master_nodes()] {
+                let on_node = self.master_nodes[on.master_nodes()].iter().map(|master_node| {
                     let c = compliance(master.node(node), master.node(master_node.node));
-                    add_product(&mut sum, &c, &transposed(&on.on_leg(master_node)));
-                }
-                sum
+                    c * on.on_leg(master_node).transpose()
+                });
+                on_node.sum::<Matrix3<f64>>()
             }));
             for (i, &of) in solved.iter().enumerate() {
                 let of = &constraints[of as usize];
                 let mut block = compliance(own.node(of.slave), own.node(on.slave));
                 for master_node in &self.master_nodes[of.master_nodes()] {
                     let velocity = &answer[place[master_node.node as usize] as usize];
-                    add_product(&mut block, &of.on_leg(master_node), velocity);
+                    block += of.on_leg(master_node) * velocity;
                 }
                 delassus[i * n + k] = of.within_plane(on, block);
             }
@@ -173,7 +170,7 @@ impl ExactContact {
         for &i in &step.solved {
             let constraint = &constraints[i as usize];
             let (opening, slip) = self.rates_of(constraint, motion);
-            step.rates.push(axpy(slip, opening, constraint.normal));
+            step.rates.push(slip + opening * *constraint.normal);
             step.before.push((constraint.normal_force, constraint.friction));
         }
         let (mut corrected, mut sweeps) = (Corrected::default(), 0);
@@ -202,7 +199,7 @@ impl ExactContact {
         let (mut change, mut size) = (0.0_f64, 0.0_f64);
         for (&i, (normal, friction)) in step.solved.iter().zip(&step.before) {
             let constraint = &constraints[i as usize];
-            let by = norm(sub(constraint.friction, *friction));
+            let by = (constraint.friction - friction).norm();
             change = change.max((constraint.normal_force - normal).abs() + by);
             size = size.max(constraint.normal_force).max(*normal);
         }
@@ -225,23 +222,22 @@ impl ExactContact {
         let own = step.delassus[k * n + k];
         let normal = constraint.normal;
         let (pressed, frictional) = (constraint.normal_force, constraint.friction);
-        let answer = dot(normal, times(&own, normal));
-        let free_gap = constraint.gap + motion.dt * (dot(normal, step.rates[k]) - answer * pressed);
+        let answer = normal.dot(&(own * *normal));
+        let free_gap = constraint.gap + motion.dt * (normal.dot(&step.rates[k]) - answer * pressed);
         let needed = -free_gap / (motion.dt * answer);
         // not `max`: what is no number must reach the guards
         constraint.normal_force = if needed <= 0.0 { 0.0 } else { needed };
-        step.push(k, scale(constraint.normal_force - pressed, normal));
-        let rate = step.rates[k];
-        let slip = axpy(rate, -dot(normal, rate), normal);
-        constraint.enforcement.delassus = largest(&own, constraint.enforcement.frame);
-        let free = axpy(slip, -constraint.enforcement.delassus, frictional);
+        step.push(k, (constraint.normal_force - pressed) * *normal);
+        let slip = tangential(step.rates[k], normal);
+        constraint.enforcement.delassus = largest(&own, &constraint.enforcement.frame);
+        let free = slip - constraint.enforcement.delassus * frictional;
         (constraint.friction, constraint.state) =
             self.return_mapping(constraint, free, positions, motion);
-        let change = sub(constraint.friction, frictional);
+        let change = constraint.friction - frictional;
         step.push(k, change);
         [
-            (constraint.normal_force - pressed).abs() + norm(change),
-            constraint.normal_force.max(norm(constraint.friction)),
+            (constraint.normal_force - pressed).abs() + change.norm(),
+            constraint.normal_force.max(constraint.friction.norm()),
         ]
     }
 
@@ -274,7 +270,7 @@ impl ExactContact {
             }
             let (opening, slip) = self.rates_of(constraint, motion);
             let slips = constraint.state == State::Slip;
-            let rubbed = dot(constraint.friction, slip);
+            let rubbed = constraint.friction.dot(&slip);
             let heat = if slips { -motion.dt * rubbed } else { 0.0 };
             sums.friction_ahead.add(heat);
             let work = motion.dt * (constraint.normal_force * opening + rubbed);
@@ -300,11 +296,11 @@ impl ExactContact {
     ) -> [f64; 2] {
         let step = &self.implicit;
         let n = step.solved.len();
-        let mut along = vec![[0.0; 3]; n];
+        let mut along = vec![Vector3::zeros(); n];
         let mut alone = 0.0_f64;
         for (k, &i) in step.solved.iter().enumerate() {
             let constraint = &constraints[i as usize];
-            let size = norm(constraint.friction);
+            let size = constraint.friction.norm();
             if size == 0.0 {
                 continue;
             }
@@ -312,12 +308,12 @@ impl ExactContact {
             let fall = -self.law.slope(constraint.memory, 0.0, &at) * constraint.normal_force;
             if fall > 0.0 {
                 let own = step.delassus[k * n + k];
-                alone = alone.max(fall * largest(&own, constraint.enforcement.frame));
+                alone = alone.max(fall * largest(&own, &constraint.enforcement.frame));
                 // the square root of the fall on either side keeps the operator symmetric
-                along[k] = scale(fall.sqrt() / size, constraint.friction);
+                along[k] = constraint.friction * (fall.sqrt() / size);
             }
         }
-        let mut x: Vec<f64> = along.iter().map(|direction| norm(*direction)).collect();
+        let mut x: Vec<f64> = along.iter().map(|direction| direction.norm()).collect();
         let mut together = 0.0;
         for _ in 0..POWERS {
             let size = x.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -326,10 +322,9 @@ impl ExactContact {
             }
             let y: Vec<f64> = (0..n)
                 .map(|i| {
-                    let answer = (0..n).fold([0.0; 3], |sum, k| {
-                        add(sum, times(&step.delassus[i * n + k], scale(x[k] / size, along[k])))
-                    });
-                    dot(along[i], answer)
+                    let answer: Vector3<f64> =
+                        (0..n).map(|k| step.delassus[i * n + k] * (x[k] / size * along[k])).sum();
+                    along[i].dot(&answer)
                 })
                 .collect();
             together = y.iter().map(|y| y * y).sum::<f64>().sqrt();
@@ -351,38 +346,22 @@ impl ExactContact {
 
 impl ImplicitStep {
     /// Adds what a change of the force of constraint k (N) changes in the relative velocities.
-    fn push(&mut self, k: usize, force: Vec3) {
-        if force == [0.0; 3] {
+    fn push(&mut self, k: usize, force: Vector3<f64>) {
+        if force == Vector3::zeros() {
             return;
         }
         let n = self.solved.len();
         for (i, rate) in self.rates.iter_mut().enumerate() {
-            *rate = add(*rate, times(&self.delassus[i * n + k], force));
+            *rate += self.delassus[i * n + k] * force;
         }
     }
 }
 
-fn times(m: &Matrix3, v: Vec3) -> Vec3 {
-    m.map(|row| dot(row, v))
-}
-
-fn transposed(m: &Matrix3) -> Matrix3 {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j: usize| m[j][i]))
-}
-
-/// `sum += a b`.
-fn add_product(sum: &mut Matrix3, a: &Matrix3, b: &Matrix3) {
-    for (sum, row) in sum.iter_mut().zip(a) {
-        for (j, sum) in sum.iter_mut().enumerate() {
-            *sum += row[0] * b[0][j] + row[1] * b[1][j] + row[2] * b[2][j];
-        }
-    }
-}
-
-/// The larger eigenvalue of the symmetric part of a matrix in the plane of two orthonormal vectors.
-fn largest(m: &Matrix3, [e1, e2]: [Vec3; 2]) -> f64 {
-    let (a, d) = (dot(e1, times(m, e1)), dot(e2, times(m, e2)));
-    let b = 0.5 * (dot(e1, times(m, e2)) + dot(e2, times(m, e1)));
+/// The larger eigenvalue of the symmetric part of a matrix in the plane of two orthonormal columns.
+fn largest(m: &Matrix3<f64>, frame: &Matrix3x2<f64>) -> f64 {
+    let in_frame = frame.tr_mul(&(m * frame));
+    let (a, d) = (in_frame.m11, in_frame.m22);
+    let b = 0.5 * (in_frame.m12 + in_frame.m21);
     0.5 * (a + d) + libm::hypot(0.5 * (a - d), b)
 }
 
@@ -393,8 +372,10 @@ mod tests {
     #[test]
     fn the_largest_answer_in_the_plane_of_contact_is_the_larger_eigenvalue_there() {
         // 2 +- 1 in the plane, at 45 degrees to its axes, whatever there is across it
-        let plane = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        assert_eq!(largest(&[[2.0, 1.0, 5.0], [1.0, 2.0, 5.0], [5.0, 5.0, 9.0]], plane), 3.0);
-        assert_eq!(largest(&[[2.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 9.0]], plane), 4.0);
+        let plane = Matrix3x2::identity();
+        let across = Matrix3::new(2.0, 1.0, 5.0, 1.0, 2.0, 5.0, 5.0, 5.0, 9.0);
+        assert_eq!(largest(&across, &plane), 3.0);
+        let along = Matrix3::from_diagonal(&Vector3::new(2.0, 4.0, 9.0));
+        assert_eq!(largest(&along, &plane), 4.0);
     }
 }

@@ -3,10 +3,10 @@ use crate::face::{Positions, project};
 use crate::plates::{STEEL, plate, tread};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
-use crate::vector::{Vec3, norm, sub};
 use crate::{ContactStep, PenaltySettings};
 use friction::Coulomb;
 use mesh::Padded;
+use nalgebra::Vector3;
 
 const RADIUS: f64 = 0.46;
 /// 2 mm faces.
@@ -14,10 +14,10 @@ const CELLS: usize = 20;
 const ARC: f64 = 2e-3 * CELLS as f64 / RADIUS;
 const SAG: f64 = 2e-3 * 2e-3 / (8.0 * RADIUS);
 
-fn turned(x: Vec3, angle: f64) -> Vec3 {
+fn turned(x: Vector3<f64>, angle: f64) -> Vector3<f64> {
     let (s, c) = libm::sincos(angle);
     let z = x[2] - RADIUS;
-    [c * x[0] + s * z, x[1], RADIUS - s * x[0] + c * z]
+    Vector3::new(c * x[0] + s * z, x[1], RADIUS - s * x[0] + c * z)
 }
 
 #[test]
@@ -26,25 +26,21 @@ fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
     let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
     let angle = 0.7;
     let nodes = trace.gather(&mesh.nodes).into_iter();
-    let position: Vec<Padded> = nodes.map(|x| Padded::new(turned(x, angle))).collect();
+    let position: Vec<Padded> = nodes.map(|x| turned(x.into(), angle).into()).collect();
     let positions = Positions(&position);
     let mut worst_facet = 0.0_f64;
     for i in 0..200 {
         let phi = (f64::from(i) / 199.0 - 0.5) * 0.8 * ARC;
         for gap in [-5e-5, 1e-4] {
             let r = RADIUS + gap;
-            let at = [r * libm::sin(phi), 1.1e-3, RADIUS - r * libm::cos(phi)];
-            let (node, outward) = (
-                turned(at, angle),
-                sub(
-                    turned([libm::sin(phi), 0.0, RADIUS - libm::cos(phi)], angle),
-                    [0.0, 0.0, RADIUS],
-                ),
-            );
+            let centre = RADIUS * Vector3::z();
+            let outward = Vector3::new(libm::sin(phi), 0.0, -libm::cos(phi));
+            let node = turned(centre + r * outward + 1.1e-3 * Vector3::y(), angle);
+            let outward = turned(centre + outward, angle) - centre;
             let exact = project(&surface, &positions, true, node, 30, 0.0, 0.0).projection.unwrap();
             assert!((exact.gap - gap).abs() < 1e-6 * SAG, "{:e}", exact.gap - gap);
             // The normal is that of the last but one iterate, at most 1e-8 half faces away.
-            let error = norm(sub(exact.point.normal, outward));
+            let error = (*exact.point.normal - outward).norm();
             assert!(error < 1e-8 * 1e-3 / RADIUS, "{error:e}");
             let facet =
                 project(&surface, &positions, false, node, 30, 0.0, 0.0).projection.unwrap();
@@ -68,12 +64,7 @@ fn rolling(curvature: bool) -> (f64, f64) {
     for step in 0..600 {
         let x = f64::from(step) * 2e-5 - 6e-3;
         let sums = rig.step(|body, at| {
-            if body == 0 {
-                let p = turned(at, x / RADIUS);
-                [p[0] + x, p[1], p[2] - depth]
-            } else {
-                at
-            }
+            if body == 0 { turned(at, x / RADIUS) + Vector3::new(x, 0.0, -depth) } else { at }
         });
         let mut checked = 0;
         for point in rig.contact.points[1].iter().filter(|p| p.is_closed()) {
@@ -110,7 +101,7 @@ fn normals_beyond_facets_are_the_circles_whichever_corner_comes_first_and_howeve
         for i in 0..200 {
             let (s, c) = libm::sincos((f64::from(i) / 199.0 - 0.5) * 0.8 * ARC);
             let r = RADIUS + 1e-4;
-            let node = Padded::new([r * s, 1.1e-3 + skew * r * s, RADIUS - r * c]).xyz();
+            let node = Vector3::new(r * s, 1.1e-3 + skew * r * s, RADIUS - r * c);
             let found = project(&surface, &Positions(&position), true, node, 30, 0.0, 0.0);
             let found = found.projection.unwrap();
             assert!((found.gap - 1e-4).abs() < 1e-6 * SAG, "{turn} {skew}: {:e}", found.gap - 1e-4);

@@ -4,10 +4,10 @@
 use super::exact::Masses;
 use super::{Rig, SETTINGS};
 use crate::plates::{plate, tread};
-use crate::vector::Vec3;
 use crate::{ContactSums, ExactSettings, Normals, PenaltySettings, Rows};
 use friction::Coulomb;
-use mesh::{Mesh, Padded, Surface};
+use mesh::{Mesh, Surface};
+use nalgebra::Vector3;
 
 const CELL: f64 = 1e-3;
 /// How far the nodes of the tread lie beside those of the plate.
@@ -23,15 +23,15 @@ fn bodies() -> [(Mesh, Surface); 2] {
     [disk, plate([-7e-3, -CELL], [7e-3, CELL], [14, 2], 0.0, CELL, true)]
 }
 
-fn dented(body: usize, [x, y, z]: Vec3) -> Vec3 {
-    let dent = |x: f64| x * x / (4.0 * RADIUS);
+fn dented(body: usize, place: Vector3<f64>) -> Vector3<f64> {
+    let (x, dent) = (place.x, |x: f64| x * x / (4.0 * RADIUS));
     // a node of the tread touches the chord between two nodes of the plate
     let lift = BESIDE * (CELL - BESIDE) / (4.0 * RADIUS);
     let round = x * x / (2.0 * RADIUS);
     if body == 0 {
-        [x + BESIDE, y, z - round + dent(x + BESIDE) + lift]
+        place + Vector3::new(BESIDE, 0.0, dent(x + BESIDE) + lift - round)
     } else {
-        [x, y, z + dent(x)]
+        place + dent(x) * Vector3::z()
     }
 }
 
@@ -51,9 +51,9 @@ fn springs(normals: Normals) -> f64 {
     let [disk, bar] = bodies();
     let mut rig = Rig::new(disk, bar, &settings, Coulomb { mu: 0.0 });
     along(&rig.step(|body, place| {
-        let [x, y, z] = dented(body, place);
-        let deep = if body == 0 { 1e-7 * parabola(x) } else { 0.0 };
-        [x, y, z - deep]
+        let place = dented(body, place);
+        let deep = if body == 0 { 1e-7 * parabola(place.x) } else { 0.0 };
+        place - deep * Vector3::z()
     }))
 }
 
@@ -63,13 +63,10 @@ fn exactly(slave: usize, rows: Rows, normals: Normals) -> f64 {
     let mut masses = Masses::with(disk, bar, &settings, Coulomb { mu: 0.0 });
     masses.inverse_mass.fill(1e5);
     for (i, (u, x)) in masses.displacement.iter_mut().zip(&masses.reference).enumerate() {
-        let place = dented(usize::from(i >= masses.upper), x.xyz());
-        *u = Padded::new([0, 1, 2].map(|axis| place[axis] - x.xyz()[axis]));
+        *u = (dented(usize::from(i >= masses.upper), x.vector()) - x.vector()).into();
     }
-    along(
-        &masses
-            .step(|body, [x, ..]| [0.0, 0.0, if body == 0 { -100.0 * parabola(x) } else { 0.0 }]),
-    )
+    let load = |x| -100.0 * parabola(x) * Vector3::z();
+    along(&masses.step(|body, place| if body == 0 { load(place.x) } else { Vector3::zeros() }))
 }
 
 /// Half the kink between two facets of the dent.

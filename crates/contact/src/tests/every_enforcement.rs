@@ -6,13 +6,13 @@ use crate::plates::{STEEL, plate, together, tread};
 use crate::point::State;
 use crate::snapshot::Points;
 use crate::tests::{K, step_on_trace};
-use crate::vector::{Vec3, add, axpy, cross, norm, sub};
 use crate::{
     Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, Normals,
     PenaltyContact, PenaltySettings, Rows, StateError, Stiffness,
 };
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::{Rotation3, UnitVector3, Vector3};
 
 const MU: f64 = 0.3;
 const STEPS: usize = 60;
@@ -45,27 +45,16 @@ fn exact<const SLAVE: usize, const MORTAR: bool>(
     Box::new(ExactContact::new(mesh, sides, &settings, law).unwrap())
 }
 
-/// A rotation about the axis (1, 2, 2)/3, and how far the bodies then are from where they were.
-#[derive(Clone, Copy)]
+/// A rotation, and how far the bodies then are from where they were.
+#[derive(Clone, Copy, Default)]
 struct Turn {
-    angle: f64,
-    away: Vec3,
+    rotation: Rotation3<f64>,
+    away: Vector3<f64>,
 }
 
 impl Turn {
-    const NONE: Self = Self { angle: 0.0, away: [0.0; 3] };
-
-    /// A vector, turned (Rodrigues).
-    fn vector(&self, v: Vec3) -> Vec3 {
-        let axis = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
-        let (sin, cos) = libm::sincos(self.angle);
-        let along = (1.0 - cos) * (axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2]);
-        let beside = cross(axis, v);
-        [0, 1, 2].map(|i| cos * v[i] + sin * beside[i] + along * axis[i])
-    }
-
-    fn point(&self, x: Vec3) -> Vec3 {
-        if self.angle == 0.0 { x } else { add(self.vector(x), self.away) }
+    fn point(&self, x: Vector3<f64>) -> Vector3<f64> {
+        self.rotation * x + self.away
     }
 }
 
@@ -94,8 +83,8 @@ impl Masses {
         let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
         // not yet touching: whether what just touches is closed would be decided by round-off
         let apart = |(i, x): (usize, &Padded)| {
-            let lifted = if i < count { add(x.xyz(), [0.0, 0.0, 1e-7]) } else { x.xyz() };
-            Padded::new(sub(turn.point(lifted), x.xyz()))
+            let lift = if i < count { 1e-7 } else { 0.0 };
+            (turn.point(x.vector() + lift * Vector3::z()) - x.vector()).into()
         };
         let n = reference.len();
         let noise =
@@ -114,18 +103,18 @@ impl Masses {
     }
 
     /// The force (N) on a node besides contact: the upper body is pressed down, then pushed along.
-    fn given(&self, i: usize, step: usize) -> Vec3 {
+    fn given(&self, i: usize, step: usize) -> Vector3<f64> {
         let push = if step > STEPS / 3 { 8.0 } else { 0.0 };
         let [x, y, _] = self.reference[i].xyz();
         let within = x.abs() < self.loaded[0] && y.abs() < self.loaded[1];
         let load = if i < self.upper { [push, 0.4 * push, -20.0] } else { [0.0, 0.0, 2.0] };
-        self.turn.vector(if within { load } else { [0.0; 3] })
+        self.turn.rotation * Vector3::from(if within { load } else { [0.0; 3] })
     }
 
     /// A step; the contact forces are left in `force`.
     fn step(&mut self, step: usize) -> ContactSums {
-        let given: Vec<Vec3> = (0..self.force.len()).map(|i| self.given(i, step)).collect();
-        self.force = given.iter().map(|&f| Padded::new(f)).collect();
+        let given: Vec<_> = (0..self.force.len()).map(|i| self.given(i, step)).collect();
+        self.force = given.iter().map(|&f| f.into()).collect();
         let sums = step_on_trace(
             &mut *self.contact,
             [&self.reference, &self.displacement, &self.velocity],
@@ -134,17 +123,15 @@ impl Masses {
             &mut self.force,
         );
         for i in 0..self.force.len() {
-            let kick = Self::DT * self.inverse_mass[i];
-            self.velocity[i] = Padded::new(axpy(self.velocity[i].xyz(), kick, self.force[i].xyz()));
-            self.displacement[i] =
-                Padded::new(axpy(self.displacement[i].xyz(), Self::DT, self.velocity[i].xyz()));
-            self.force[i] = Padded::new(sub(self.force[i].xyz(), given[i]));
+            self.velocity[i] += Self::DT * self.inverse_mass[i] * self.force[i].vector();
+            self.displacement[i] += Self::DT * self.velocity[i].vector();
+            self.force[i] -= given[i];
         }
         sums
     }
 
-    fn position(&self, i: usize) -> Vec3 {
-        add(self.reference[i].xyz(), self.displacement[i].xyz())
+    fn position(&self, i: usize) -> Vector3<f64> {
+        self.reference[i].vector() + self.displacement[i].vector()
     }
 
     fn table(&self, side: usize) -> NodalContact {
@@ -155,20 +142,19 @@ impl Masses {
 }
 
 fn every_action_has_its_reaction(build: Build) {
-    let mut masses = Masses::new(build, Turn::NONE);
+    let mut masses = Masses::new(build, Turn::default());
     let (mut closed, mut slipping) = (0, 0);
     for step in 0..STEPS {
-        let positions: Vec<Vec3> = (0..masses.force.len()).map(|i| masses.position(i)).collect();
         let sums = masses.step(step);
-        let on = |side: usize| {
-            let body = if side == 0 { 0..masses.upper } else { masses.upper..positions.len() };
-            body.fold([0.0; 3], |sum, i| add(sum, masses.force[i].xyz()))
+        let on = |side: usize| -> Vector3<f64> {
+            let bodies = masses.force.split_at(masses.upper);
+            [bodies.0, bodies.1][side].iter().map(|f| f.vector()).sum()
         };
         let scale = sums.normal_force.max(1.0);
         for side in 0..2 {
-            assert!(norm(sub(on(side), sums.force[side])) <= 1e-12 * scale, "{side}: {sums:?}");
+            assert!((on(side) - sums.force[side]).norm() <= 1e-12 * scale, "{side}: {sums:?}");
         }
-        assert!(norm(add(sums.force[0], sums.force[1])) <= 1e-13 * scale, "{sums:?}");
+        assert!((sums.force[0] + sums.force[1]).norm() <= 1e-13 * scale, "{sums:?}");
         closed += sums.closed;
         slipping += sums.slipping;
     }
@@ -176,7 +162,7 @@ fn every_action_has_its_reaction(build: Build) {
 }
 
 fn nothing_pulls_and_shear_stays_in_the_cone(build: Build) {
-    let mut masses = Masses::new(build, Turn::NONE);
+    let mut masses = Masses::new(build, Turn::default());
     let mut loaded = 0;
     for step in 0..STEPS {
         masses.step(step);
@@ -188,7 +174,7 @@ fn nothing_pulls_and_shear_stays_in_the_cone(build: Build) {
             }
             for (p, q) in table.pressure.iter().zip(&table.shear) {
                 assert!(*p >= 0.0, "{p} Pa");
-                assert!(norm(*q) <= MU * p * (1.0 + 1e-11), "{} of {p} Pa", norm(*q));
+                assert!(q.norm() <= MU * p * (1.0 + 1e-11), "{} of {p} Pa", q.norm());
                 loaded += usize::from(*p > 0.0);
             }
         }
@@ -200,24 +186,26 @@ fn nothing_pulls_and_shear_stays_in_the_cone(build: Build) {
 /// integrated anew: when that is depends on when the search first listed a node, hence on the axes, and
 /// these masses without springs answer the second-order difference of the gap by a force of its own.
 fn forces_turn_with_the_bodies(build: Build, steps: usize) {
-    let turn = Turn { angle: 0.8, away: [0.02, -0.01, 0.03] };
+    let axis = UnitVector3::new_normalize(Vector3::new(1.0, 2.0, 2.0));
+    let rotation = Rotation3::from_axis_angle(&axis, 0.8);
+    let turn = Turn { rotation, away: Vector3::new(0.02, -0.01, 0.03) };
     let mut worst = 0.0f64;
-    let [mut still, mut turned] = [Turn::NONE, turn].map(|turn| Masses::new(build, turn));
+    let [mut still, mut turned] = [Turn::default(), turn].map(|turn| Masses::new(build, turn));
     [still.loaded, turned.loaded] = [[5e-3, 2.5e-3]; 2];
     let mut closed = 0;
     for step in 0..steps {
         // the same motion but for round-off, which nodes without springs would let grow
         for i in 0..still.force.len() {
-            let place = sub(turn.point(still.position(i)), turned.reference[i].xyz());
-            turned.displacement[i] = Padded::new(place);
-            turned.velocity[i] = Padded::new(turn.vector(still.velocity[i].xyz()));
+            let place = turn.point(still.position(i));
+            turned.displacement[i] = (place - turned.reference[i].vector()).into();
+            turned.velocity[i] = (turn.rotation * still.velocity[i].vector()).into();
         }
         let (a, b) = (still.step(step), turned.step(step));
         assert_eq!((a.closed, a.slipping), (b.closed, b.slipping), "step {step}");
         closed += a.closed;
-        let largest = still.force.iter().map(|f| norm(f.xyz())).fold(1.0, f64::max);
+        let largest = still.force.iter().map(|f| f.vector().norm()).fold(1.0, f64::max);
         for (f, g) in still.force.iter().zip(&turned.force) {
-            let off = norm(sub(turn.vector(f.xyz()), g.xyz())) / largest;
+            let off = (turn.rotation * f.vector() - g.vector()).norm() / largest;
             worst = worst.max(off);
         }
     }
@@ -226,8 +214,8 @@ fn forces_turn_with_the_bodies(build: Build, steps: usize) {
 }
 
 fn a_state_that_is_restored_goes_on_with_the_same_bits(build: Build) {
-    let mut masses = Masses::new(build, Turn::NONE);
-    let mut again = Masses::new(build, Turn::NONE);
+    let mut masses = Masses::new(build, Turn::default());
+    let mut again = Masses::new(build, Turn::default());
     for step in 0..STEPS {
         if step == STEPS / 2 {
             again.contact.restore(&masses.contact.snapshot()).unwrap();
@@ -251,14 +239,15 @@ fn a_state_of_other_rows_or_with_places_that_there_are_not_is_refused() {
     let builds: [Build; 3] = [penalty, exact::<0, false>, exact::<0, true>];
     let mut states = Vec::new();
     for build in builds {
-        let mut masses = Masses::new(build, Turn::NONE);
+        let mut masses = Masses::new(build, Turn::default());
         (0..STEPS).for_each(|step| {
             masses.step(step);
         });
         states.push(masses.contact.snapshot());
     }
-    let restored =
-        |build: Build, state: &ContactState| Masses::new(build, Turn::NONE).contact.restore(state);
+    let restored = |build: Build, state: &ContactState| {
+        Masses::new(build, Turn::default()).contact.restore(state)
+    };
     let [springs, node_to_face, mortar] = &states[..] else { panic!() };
     assert_eq!(restored(exact::<0, false>, springs), Err(StateError::Method));
     assert_eq!(restored(penalty, node_to_face), Err(StateError::Method));

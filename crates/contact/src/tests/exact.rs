@@ -1,9 +1,9 @@
 use super::step_on_trace;
 use crate::plates::{STEEL, plate, together, tread};
-use crate::vector::{Vec3, add, axpy, cross, dot, norm, sub};
 use crate::{ContactSums, ContactTables, ExactContact, ExactSettings, NodalContact, Normals, Rows};
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::Vector3;
 
 /// Two bodies whose nodes are masses without springs: what contact does to them in a step.
 pub(super) struct Masses {
@@ -67,9 +67,9 @@ impl Masses {
     }
 
     /// A step under the forces `given(body, X)` (N) on every node.
-    pub fn step(&mut self, given: impl Fn(usize, Vec3) -> Vec3) -> ContactSums {
+    pub fn step(&mut self, given: impl Fn(usize, Vector3<f64>) -> Vector3<f64>) -> ContactSums {
         for (i, (f, x)) in self.force.iter_mut().zip(&self.reference).enumerate() {
-            *f = Padded::new(given(usize::from(i >= self.upper), x.xyz()));
+            *f = given(usize::from(i >= self.upper), x.vector()).into();
         }
         let sums = step_on_trace(
             &mut self.contact,
@@ -79,13 +79,30 @@ impl Masses {
             &mut self.force,
         );
         for i in 0..self.force.len() {
-            let v =
-                axpy(self.velocity[i].xyz(), self.dt * self.inverse_mass[i], self.force[i].xyz());
-            self.velocity[i] = Padded::new(v);
-            self.displacement[i] =
-                Padded::new(axpy(self.displacement[i].xyz(), self.dt, self.velocity[i].xyz()));
+            self.velocity[i] += self.dt * self.inverse_mass[i] * self.force[i].vector();
+            self.displacement[i] += self.dt * self.velocity[i].vector();
         }
         sums
+    }
+
+    fn positions(&self) -> Vec<Vector3<f64>> {
+        let nodes = self.reference.iter().zip(&self.displacement);
+        nodes.map(|(x, u)| x.vector() + u.vector()).collect()
+    }
+
+    /// Resultant and moment of the forces of contact alone on nodes at `positions`, of those that `given` leaves.
+    fn resultants(
+        &self,
+        positions: &[Vector3<f64>],
+        given: impl Fn(usize, Vector3<f64>) -> Vector3<f64>,
+    ) -> [Vector3<f64>; 2] {
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (i, x) in positions.iter().enumerate() {
+            let by_contact = self.force[i].vector() - given(usize::from(i >= self.upper), *x);
+            force += by_contact;
+            moment += x.cross(&by_contact);
+        }
+        [force, moment]
     }
 
     fn table(&self, side: usize) -> NodalContact {
@@ -98,8 +115,8 @@ impl Masses {
 const ROWS: [Rows; 2] = [Rows::NodeToFace, Rows::Mortar];
 
 /// Presses and pushes the upper body.
-fn pressed(body: usize, _: Vec3) -> Vec3 {
-    if body == 0 { [4.0, 1.5, -20.0] } else { [0.0, 0.0, 2.0] }
+fn pressed(body: usize, _: Vector3<f64>) -> Vector3<f64> {
+    if body == 0 { [4.0, 1.5, -20.0] } else { [0.0, 0.0, 2.0] }.into()
 }
 
 #[test]
@@ -108,27 +125,16 @@ fn contact_forces_have_no_resultant_and_no_moment() {
         let mut masses = Masses::rolling(slave, rows, Coulomb { mu: 0.3 });
         let (mut closed, mut slipping) = (0, 0);
         for _ in 0..40 {
-            let positions: Vec<Vec3> = masses
-                .reference
-                .iter()
-                .zip(&masses.displacement)
-                .map(|(x, u)| add(x.xyz(), u.xyz()))
-                .collect();
+            let positions = masses.positions();
             let sums = masses.step(pressed);
-            let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
-            for (i, x) in positions.iter().enumerate() {
-                let given = pressed(usize::from(i >= masses.upper), *x);
-                let by_contact = sub(masses.force[i].xyz(), given);
-                force = add(force, by_contact);
-                moment = add(moment, cross(*x, by_contact));
-            }
+            let [force, moment] = masses.resultants(&positions, pressed);
             closed += sums.closed;
             slipping += sums.slipping;
-            let both = add(sums.force[0], sums.force[1]);
-            assert!(norm(both) <= 1e-14 * sums.normal_force, "{both:?}");
-            assert!(norm(force) <= 1e-12 * sums.normal_force.max(1.0), "{force:?}");
+            let both = sums.force[0] + sums.force[1];
+            assert!(both.norm() <= 1e-14 * sums.normal_force, "{both:?}");
+            assert!(force.norm() <= 1e-12 * sums.normal_force.max(1.0), "{force:?}");
             // half the length of the patch as the arm
-            assert!(norm(moment) <= 1e-9 * sums.normal_force * 4e-3, "{moment:?}");
+            assert!(moment.norm() <= 1e-9 * sums.normal_force * 4e-3, "{moment:?}");
         }
         assert!(closed > 400 && slipping > 100, "{closed} {slipping}");
     }
@@ -148,15 +154,15 @@ fn the_conditions_hold_at_the_end_of_the_step() {
             for i in 0..table.nodes.len() {
                 let (p, shear, slip) = (table.pressure[i], table.shear[i], table.slip_velocity[i]);
                 assert!(p >= 0.0);
-                assert!(norm(shear) <= mu * p * (1.0 + 1e-14));
+                assert!(shear.norm() <= mu * p * (1.0 + 1e-14));
                 match table.state[i] {
                     1 => {
-                        assert!(norm(slip) < 1e-9, "{slip:?}");
+                        assert!(slip.norm() < 1e-9, "{slip:?}");
                         sticks += 1;
                     }
                     2 => {
-                        assert!((norm(shear) / (mu * p) - 1.0).abs() < 1e-12);
-                        let along = -dot(shear, slip) / (norm(shear) * norm(slip));
+                        assert!((shear.norm() / (mu * p) - 1.0).abs() < 1e-12);
+                        let along = -shear.dot(&slip) / (shear.norm() * slip.norm());
                         assert!(along > 1.0 - 1e-9, "{along}");
                         slips += 1;
                     }
@@ -195,7 +201,8 @@ fn nodes_that_were_pressed_end_the_step_without_a_gap() {
         let pressed = (0..before.nodes.len()).filter(|&i| before.pressure[i] > 0.0);
         let largest = pressed.map(|i| after.gap[i].abs()).fold(0.0, f64::max);
         // second order in the motion of a step: tilt of faces times slip
-        let motion = masses.velocity.iter().map(|v| norm(v.xyz()) * masses.dt).fold(0.0, f64::max);
+        let motion =
+            masses.velocity.iter().map(|v| v.vector().norm() * masses.dt).fold(0.0, f64::max);
         assert!(largest < 1e-3 * motion, "{rows:?} {largest:e} {motion:e}");
     }
 }
@@ -228,17 +235,16 @@ fn a_common_rotation_gives_no_slip_velocity_across_the_sag_of_facets() {
             masses.velocity.fill(Padded::ZERO);
             masses.step(pressed);
         }
-        let turn = [20.0, 70.0, -30.0];
-        for i in 0..masses.velocity.len() {
-            let x = add(masses.reference[i].xyz(), masses.displacement[i].xyz());
-            masses.velocity[i] = Padded::new(cross(turn, x));
+        let turn = Vector3::new(20.0, 70.0, -30.0);
+        for (i, x) in masses.positions().into_iter().enumerate() {
+            masses.velocity[i] = turn.cross(&x).into();
         }
-        let sums = masses.step(|_, _| [0.0; 3]);
+        let sums = masses.step(|_, _| Vector3::zeros());
         assert!(sums.normal_force < 1e-9, "nothing presses: {sums:?}");
-        let sums = masses.step(|body, _| if body == 0 { [0.0, 0.0, -1e-3] } else { [0.0; 3] });
+        let sums = masses.step(|body, _| if body == 0 { -1e-3 } else { 0.0 } * Vector3::z());
         assert!(sums.closed > 5, "{sums:?}");
         let table = masses.table(1);
-        let slip = table.slip_velocity.iter().map(|s| norm(*s)).fold(0.0, f64::max);
+        let slip = table.slip_velocity.iter().map(|s| s.norm()).fold(0.0, f64::max);
         assert!(slip < 1e-6, "{rows:?} {slip:e}");
     }
 }
@@ -257,16 +263,16 @@ fn falling_friction_of_the_same_instant_obeys_equation_8_and_counts_where_it_has
     let (mut slips, mut non_unique) = (0, 0);
     for n in 0..80 {
         let push = 5.0 * f64::from(n);
-        let given = |body: usize, _: Vec3| {
-            if body == 0 { [push, 0.0, -400.0] } else { [0.0, 0.0, 40.0] }
+        let given = |body: usize, _: Vector3<f64>| -> Vector3<f64> {
+            if body == 0 { [push, 0.0, -400.0] } else { [0.0, 0.0, 40.0] }.into()
         };
         let sums = masses.step(given);
         assert!(sums.sweeps < 100, "step {n}");
         non_unique += sums.non_unique;
         let table = masses.table(0);
         for i in (0..table.nodes.len()).filter(|&i| table.state[i] == 2) {
-            let mu = friction::FrictionLaw::mu(&law, norm(table.slip_velocity[i]));
-            assert!((norm(table.shear[i]) / (mu * table.pressure[i]) - 1.0).abs() < 1e-9);
+            let mu = friction::FrictionLaw::mu(&law, table.slip_velocity[i].norm());
+            assert!((table.shear[i].norm() / (mu * table.pressure[i]) - 1.0).abs() < 1e-9);
             slips += 1;
         }
     }
@@ -286,27 +292,17 @@ fn mortar_rows_slide_over_a_mesh_that_does_not_match_without_gap_moment_or_alloc
     // the lower plate is held and stays flat
     masses.inverse_mass[masses.upper..].fill(0.0);
     masses.velocity[..masses.upper].fill(Padded::new([300.0, 70.0, 0.0]));
-    let given = |body: usize, _: Vec3| if body == 0 { [0.0, 0.0, -200.0] } else { [0.0; 3] };
+    let given = |body: usize, _: Vector3<f64>| if body == 0 { -200.0 } else { 0.0 } * Vector3::z();
     let (mut integrated, mut room) = (0, None);
     for n in 0..60 {
-        let positions: Vec<Vec3> = masses
-            .reference
-            .iter()
-            .zip(&masses.displacement)
-            .map(|(x, u)| add(x.xyz(), u.xyz()))
-            .collect();
+        let positions = masses.positions();
         let sums = masses.step(given);
         assert_eq!(sums.closed, 64);
         assert!(sums.friction_ahead > 0.0);
         assert!(sums.max_penetration < 1e-15, "{:e}", sums.max_penetration);
-        let (mut force, mut moment) = ([0.0; 3], [0.0; 3]);
-        for (i, x) in positions.iter().enumerate() {
-            let by_contact = sub(masses.force[i].xyz(), given(usize::from(i >= masses.upper), *x));
-            force = add(force, by_contact);
-            moment = add(moment, cross(*x, by_contact));
-        }
-        assert!(norm(force) <= 1e-12 * sums.normal_force, "{force:?}");
-        assert!(norm(moment) <= 1e-12 * sums.normal_force * 6e-3, "{moment:?}");
+        let [force, moment] = masses.resultants(&positions, given);
+        assert!(force.norm() <= 1e-12 * sums.normal_force, "{force:?}");
+        assert!(moment.norm() <= 1e-12 * sums.normal_force * 6e-3, "{moment:?}");
         integrated += sums.integrated;
         if n == 20 {
             room = Some(masses.contact.room());

@@ -1,7 +1,6 @@
 //! Exact contact in an implicit step of nodes that are masses without springs: their compliance over the step is `dt/m`, and
 //! it must find what an explicit step finds.
 
-use crate::exact::Matrix3;
 use crate::plates::{STEEL, plate, together, tread};
 use crate::{
     ContactStep, ContactSums, ContactTables, ExactContact, ExactSettings, FreeMotion, Motion,
@@ -9,6 +8,7 @@ use crate::{
 };
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::{Matrix3, Vector3};
 use std::cell::RefCell;
 use std::collections::BTreeSet;
 
@@ -84,7 +84,7 @@ impl Bodies {
         let motion = self.motion(&self.free);
         contact.follow(&motion);
         let mut force = vec![Padded::ZERO; self.free.len()];
-        let free = |node: u32, _: [f64; 3]| self.free[node as usize].xyz();
+        let free = |node: u32, _: Vector3<f64>| Vector3::from(self.free[node as usize].xyz());
         let sums = contact.apply(&motion, &FreeMotion { velocity: &free }, &mut force);
         Stepped { sums, velocity: self.pushed(&force), force }
     }
@@ -96,10 +96,10 @@ impl Bodies {
         contact.begin_implicit(&motion, pairs);
         let borne_by: BTreeSet<u32> = contact.borne_by().collect();
         let asked = RefCell::new(BTreeSet::new());
-        contact.set_compliance(&|of, on| -> Matrix3 {
+        contact.set_compliance(&|of, on| -> Matrix3<f64> {
             asked.borrow_mut().extend([of, on]);
             let own = if of == on { DT * self.inverse_mass[of as usize] } else { 0.0 };
-            [[own, 0.0, 0.0], [0.0, own, 0.0], [0.0, 0.0, own]]
+            Matrix3::from_diagonal_element(own)
         });
         assert_eq!(asked.into_inner(), borne_by, "the nodes whose compliance the step asks for");
         let forces = |contact: &ExactContact| {

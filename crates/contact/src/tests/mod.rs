@@ -11,13 +11,13 @@ mod search;
 mod slip;
 
 use crate::plates::{STEEL, plate, together};
-use crate::vector::{Vec3, add, axpy, sub};
 use crate::{
     Contact, ContactSums, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
     TraceFields, TraceStep,
 };
 use friction::NodeFriction;
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::Vector3;
 
 /// Areal stiffness of both passes together (N/m^3).
 pub(crate) const K: f64 = 2e13;
@@ -88,19 +88,19 @@ impl Rig {
     }
 
     /// Moves every node to `place(body, X)` in one step and applies contact.
-    pub fn step(&mut self, place: impl Fn(usize, Vec3) -> Vec3) -> ContactSums {
+    pub fn step(&mut self, place: impl Fn(usize, Vector3<f64>) -> Vector3<f64>) -> ContactSums {
         for (i, x) in self.reference.iter().enumerate() {
-            let u = sub(place(usize::from(i >= self.upper), x.xyz()), x.xyz());
-            let moved = sub(u, self.displacement[i].xyz());
-            self.velocity[i] = Padded::new(moved.map(|d| d / self.dt));
-            self.displacement[i] = Padded::new(u);
+            let u = place(usize::from(i >= self.upper), x.vector()) - x.vector();
+            self.velocity[i] = ((u - self.displacement[i].vector()) / self.dt).into();
+            self.displacement[i] = u.into();
         }
         self.apply()
     }
 
     /// Shifts the upper body to `by`.
-    pub fn shift(&mut self, by: Vec3) -> ContactSums {
-        self.step(|body, x| if body == 0 { add(x, by) } else { x })
+    pub fn shift(&mut self, by: impl Into<Vector3<f64>>) -> ContactSums {
+        let by = by.into();
+        self.step(|body, x| if body == 0 { x + by } else { x })
     }
 
     pub fn apply(&mut self) -> ContactSums {
@@ -152,9 +152,9 @@ fn step_on_trace(
     fields.step(time, dt).force.fill(Padded([f64::NAN; 4]));
     fields.gather_forces(loaded.iter().copied(), force);
     let TraceStep { motion, force: on_trace, .. } = fields.step(time, dt);
-    let free = |node: u32, force: Vec3| {
+    let free = |node: u32, force: Vector3<f64>| {
         let i = node as usize;
-        axpy(motion.velocity[i].xyz(), dt * motion.inverse_mass[i], force)
+        motion.velocity[i].vector() + dt * motion.inverse_mass[i] * force
     };
     let sums = contact.apply(&motion, &FreeMotion { velocity: &free }, on_trace);
     for (node, f) in on_trace.iter().enumerate() {

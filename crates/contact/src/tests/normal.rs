@@ -1,9 +1,9 @@
 use super::{K, Rig, SETTINGS};
 use crate::plates::plate;
-use crate::vector::{Vec3, add, cross, norm};
 use crate::{ContactError, PenaltyContact, PenaltySettings, Stiffness};
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::Vector3;
 
 const AREA: f64 = 64e-6;
 const DEPTH: f64 = 3e-6;
@@ -44,15 +44,14 @@ fn matched_plates_pressed_uniformly_have_one_pressure_everywhere() {
 #[test]
 fn actions_equal_reactions_and_their_moments_balance() {
     let (rig, sums) = press(Rig::plates(7, 4, Coulomb { mu: 0.3 }));
-    let mut total = [0.0; 3];
-    let mut moment: Vec3 = [0.0; 3];
+    let (mut total, mut moment) = (Vector3::zeros(), Vector3::zeros());
     for (i, f) in rig.force.iter().enumerate() {
-        total = add(total, f.xyz());
-        let x = add(rig.reference[i].xyz(), rig.displacement[i].xyz());
-        moment = add(moment, cross(x, f.xyz()));
+        total += f.vector();
+        let x = rig.reference[i].vector() + rig.displacement[i].vector();
+        moment += x.cross(&f.vector());
     }
-    assert!(norm(total) < 1e-14 * sums.normal_force, "{total:?}");
-    assert!(norm(moment) < 1e-12 * sums.normal_force * 8e-3, "{moment:?}");
+    assert!(total.norm() < 1e-14 * sums.normal_force, "{total:?}");
+    assert!(moment.norm() < 1e-12 * sums.normal_force * 8e-3, "{moment:?}");
     for i in 0..3 {
         assert!((sums.force[0][i] + sums.force[1][i]).abs() <= 1e-14 * sums.normal_force);
     }
@@ -183,10 +182,10 @@ fn stiffness_product_is_the_change_of_force() {
     let mut product = vec![Padded::ZERO; n];
     rig.contact.stiffness_product(&x, &mut product);
     for (u, x) in rig.displacement.iter_mut().zip(&x) {
-        *u = Padded::new(add(u.xyz(), x.xyz()));
+        *u += x.vector();
     }
     rig.apply();
-    let scale = product.iter().map(|p| norm(p.xyz())).fold(0.0, f64::max);
+    let scale = product.iter().map(|p| p.vector().norm()).fold(0.0, f64::max);
     for i in 0..n {
         for c in 0..3 {
             let change = before[i][c] - rig.force[i][c];
@@ -213,10 +212,10 @@ fn diagonal_bounds_hold_for_the_largest_eigenvalue() {
                 rig.contact.stiffness_product(&x, &mut y);
                 value = 0.0;
                 for i in 0..n {
-                    x[i] = Padded::new(y[i].xyz().map(|f| f * inverse[i]));
-                    value = norm(x[i].xyz()).max(value);
+                    x[i] = (y[i].vector() * inverse[i]).into();
+                    value = x[i].vector().norm().max(value);
                 }
-                x.iter_mut().for_each(|v| *v = Padded::new(v.xyz().map(|c| c / value)));
+                x.iter_mut().for_each(|v| *v = (v.vector() / value).into());
             }
             value
         };

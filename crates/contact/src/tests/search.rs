@@ -2,8 +2,8 @@ use super::{K, Rig, SETTINGS};
 use crate::face::{Positions, project};
 use crate::plates::{plate, tread};
 use crate::search::Listed;
-use crate::vector::Vec3;
 use friction::Coulomb;
+use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
 
 /// Every penetration that projecting all nodes on the master from all of its faces finds, against
@@ -57,14 +57,11 @@ proptest! {
             let t = f64::from(step) * rig.dt;
             let omega = frequency * 1e5;
             let drop = bounce / omega * libm::sin(omega * t) - 1e-5;
-            let sums = rig.step(|body, x: Vec3| {
-                if body == 1 {
-                    return x;
-                }
-                let (s, c) = libm::sincos(spin * t);
-                let z = x[2] - radius;
-                let (px, pz) = (c * x[0] + s * z, c * z - s * x[0]);
-                [px + speed * t, x[1] + sideways * t, pz + radius + drop]
+            let centre = radius * Vector3::z();
+            let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), spin * t);
+            let moved = Vector3::new(speed * t, sideways * t, drop);
+            let sums = rig.step(|body, x| {
+                if body == 0 { centre + turn * (x - centre) + moved } else { x }
             });
             searches += usize::from(sums.searched);
             if step % 25 == 24 {
@@ -96,11 +93,11 @@ fn resting_contact_is_searched_once() {
 #[test]
 fn common_motion_of_both_bodies_needs_no_search() {
     let mut rig = Rig::plates(7, 5, Coulomb { mu: 0.3 });
-    rig.step(|body, x| [x[0], x[1], x[2] - if body == 0 { 1e-6 } else { 0.0 }]);
+    rig.shift([0.0, 0.0, -1e-6]);
     for step in 1..500 {
         let far = 1e-5 * f64::from(step);
-        let sums =
-            rig.step(|body, x| [x[0] + far, x[1], x[2] + far - if body == 0 { 1e-6 } else { 0.0 }]);
+        let deep = |body| if body == 0 { 1e-6 } else { 0.0 };
+        let sums = rig.step(|body, x| x + Vector3::new(far, 0.0, far - deep(body)));
         assert!(!sums.searched && sums.closed == 100);
     }
 }
@@ -115,7 +112,7 @@ fn positions_that_are_not_numbers_do_not_panic() {
     for _ in 0..100 {
         rig.apply();
     }
-    rig.step(|_, x| [x[0] * f64::NAN, x[1], x[2]]);
+    rig.step(|_, x| x + f64::NAN * Vector3::x());
     rig.contact.search = crate::search::Search::new(&rig.contact.sides);
     rig.apply();
 }
@@ -137,9 +134,8 @@ fn bodies_that_have_come_twice_as_fast_since_the_last_look_are_found_when_they_t
     let margin = 0.1 * 2e-3;
     for step in 0..10 {
         let moved = if step == 0 { 0.0 } else { 0.2 * f64::from(step) - 0.1 } * margin;
-        let sums = rig.step(|body, x: Vec3| {
-            let z = if body == 0 { x[2] + 2.0 * margin - moved } else { x[2] + moved };
-            [x[0], x[1], z]
+        let sums = rig.step(|body, x| {
+            x + (if body == 0 { 2.0 * margin - moved } else { moved }) * Vector3::z()
         });
         assert_eq!(sums.closed, if moved > margin { 50 } else { 0 }, "step {step}: {sums:?}");
     }

@@ -1,22 +1,13 @@
 use super::{K, Rig, SETTINGS};
 use crate::search::Listed;
-use crate::vector::{Vec3, add, dot, norm, scale, sub};
 use crate::{ContactTables, PenaltySettings, Stiffness};
 use friction::{
     Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeConditions, NodeFriction, Remembering,
 };
 use mesh::Padded;
+use nalgebra::{Rotation3, UnitVector3, Vector3};
 
 const DEPTH: f64 = 3e-6;
-
-/// Rotation of `x` about the axis through `centre` along the unit vector `axis`.
-fn rotated(x: Vec3, centre: Vec3, axis: Vec3, angle: f64) -> Vec3 {
-    let r = sub(x, centre);
-    let (s, c) = libm::sincos(angle);
-    let across = crate::vector::cross(axis, r);
-    let along = scale(dot(axis, r) * (1.0 - c), axis);
-    add(centre, add(add(scale(c, r), scale(s, across)), along))
-}
 
 fn exponential() -> Lagged<Exponential> {
     Lagged(Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 })
@@ -54,7 +45,7 @@ fn slipping_plates_bear_mu_times_the_normal_force_against_the_motion() {
         rig.contact.nodal(&mut table);
         for i in 0..table.nodes.len() {
             if table.pressure[i] > 0.0 {
-                assert!(dot(table.shear[i], table.slip_velocity[i]) < 0.0);
+                assert!(table.shear[i].dot(&table.slip_velocity[i]) < 0.0);
                 assert_eq!(table.state[i], 2);
             }
         }
@@ -73,7 +64,7 @@ fn nodal_shear_never_exceeds_mu_times_pressure() {
             rig.contact.nodal(&mut table);
             for i in 0..table.nodes.len() {
                 let bound = table.mu[i] * table.pressure[i];
-                assert!(norm(table.shear[i]) <= bound * (1.0 + 1e-14) + 1e-300);
+                assert!(table.shear[i].norm() <= bound * (1.0 + 1e-14) + 1e-300);
                 assert!(table.mu[i] <= 0.5 + 1e-15 && table.mu[i] >= 0.32 - 1e-15);
             }
         }
@@ -88,15 +79,15 @@ fn nodal_tractions_times_area_are_the_forces_on_the_surface() {
     for side in 0..2 {
         let mut table = rig.contact.nodal_table(side);
         rig.contact.nodal(&mut table);
-        let mut total = [0.0; 3];
+        let mut total = Vector3::zeros();
         for i in 0..table.nodes.len() {
-            total = add(total, scale(table.area[i], table.shear[i]));
+            total += table.area[i] * table.shear[i];
             total[2] += [1.0, -1.0][side] * table.area[i] * table.pressure[i];
             let node = table.nodes[i] as usize;
-            let f = scale(1.0 / table.area[i], rig.force[node].xyz());
+            let f = rig.force[node].vector() / table.area[i];
             assert!((f[0] - table.shear[i][0]).abs() < 1e-9 * K * DEPTH);
         }
-        assert!(norm(sub(total, sums.force[side])) < 1e-11 * sums.normal_force);
+        assert!((total - sums.force[side]).norm() < 1e-11 * sums.normal_force);
     }
 }
 
@@ -119,23 +110,23 @@ fn part_of_the_surface_has_the_values_of_the_whole() {
 
 #[test]
 fn common_rotation_makes_no_friction_and_carries_stored_forces_along() {
-    let axis = scale(1.0 / 14.0_f64.sqrt(), [1.0, 2.0, 3.0]);
-    let centre = [3e-3, -2e-3, 5e-3];
+    let axis = UnitVector3::new_normalize(Vector3::new(1.0, 2.0, 3.0));
+    let rotation = |angle| Rotation3::from_axis_angle(&axis, angle);
+    let centre = Vector3::new(3e-3, -2e-3, 5e-3);
     for slid in [[0.0, 0.0], [3e-7, -2e-7]] {
         let mut rig = Rig::plates(6, 6, Coulomb { mu: 0.5 });
         rig.shift([0.0, 0.0, -DEPTH]);
-        let place = move |body: usize, x: Vec3| {
-            if body == 0 { add(x, [slid[0], slid[1], -DEPTH]) } else { x }
+        let place = move |body: usize, x: Vector3<f64>| {
+            if body == 0 { x + Vector3::new(slid[0], slid[1], -DEPTH) } else { x }
         };
         rig.step(place);
         let start = rig.apply();
         let mut end = start;
         for step in 1..=1000 {
-            let angle = f64::from(step) * 2e-3;
-            end = rig.step(|body, x| rotated(place(body, x), centre, axis, angle));
+            let turn = rotation(f64::from(step) * 2e-3);
+            end = rig.step(|body, x| centre + turn * (place(body, x) - centre));
         }
-        let expected = rotated(start.force[0], [0.0; 3], axis, 2.0);
-        let error = norm(sub(end.force[0], expected)) / start.normal_force;
+        let error = (end.force[0] - rotation(2.0) * start.force[0]).norm() / start.normal_force;
         assert!(error < 1e-8, "{error:e}");
         let before = start.stored_tangential.sqrt();
         let limit = 1e-8 * start.stored_normal.sqrt();
@@ -150,13 +141,12 @@ fn work_on_a_path_is_stored_or_dissipated() {
         let mut last = rig.shift([0.0, 0.0, -DEPTH]);
         let first = last;
         let (mut work, mut dissipated, mut exchanged) = (0.0, 0.0, 0.0);
-        let mut at = [0.0; 3];
+        let mut at = Vector3::new(0.0, 0.0, -DEPTH);
         for step in 1..=400 {
             let t = f64::from(step) * std::f64::consts::TAU / 400.0;
-            let to = [2e-6 * libm::sin(2.0 * t), 3e-6 * (1.0 - libm::cos(t)), 0.0];
-            let sums = rig.shift(add(to, [0.0, 0.0, -DEPTH]));
-            let d = sub(to, at);
-            let share = 0.5 * (dot(last.force[0], d) + dot(sums.force[0], d));
+            let to = Vector3::new(2e-6 * libm::sin(2.0 * t), 3e-6 * (1.0 - libm::cos(t)), -DEPTH);
+            let sums = rig.shift(to);
+            let share = 0.5 * (last.force[0] + sums.force[0]).dot(&(to - at));
             work += share;
             exchanged += share.abs();
             dissipated += sums.friction_work;
@@ -205,7 +195,7 @@ fn coefficient_is_that_of_the_slip_speed_one_step_before() {
         rig.shift([x, 0.0, -DEPTH]);
         for point in rig.contact.points[0].iter().filter(|p| p.is_closed()) {
             assert!((point.mu - law.0.mu(before)).abs() < 1e-7);
-            assert!((norm(point.slip_velocity) - speed).abs() < 1e-6);
+            assert!((point.slip_velocity.norm() - speed).abs() < 1e-6);
         }
         before = speed;
     }
@@ -220,7 +210,7 @@ fn first_step_of_contact_has_no_friction_and_knows_the_speed_of_the_nodes() {
     assert!(sums.closed > 0);
     assert_eq!(sums.force[0][0], 0.0);
     for point in &rig.contact.points[0] {
-        assert!((norm(point.slip_velocity) - 2.0).abs() < 1e-6);
+        assert!((point.slip_velocity.norm() - 2.0).abs() < 1e-6);
         assert!((point.mu - law.0.mu(2.0)).abs() < 1e-7);
     }
 }

@@ -207,8 +207,8 @@ impl Probes {
 
 /// What a table holds of a node.
 fn values(t: &NodalContact, row: usize, sign: f64) -> ProbeRow<f64> {
-    let ([shear_x, shear_y, shear_z], [slip_velocity_x, slip_velocity_y, slip_velocity_z]) =
-        (t.shear[row], t.slip_velocity[row]);
+    let [shear_x, shear_y, shear_z] = t.shear[row].into();
+    let [slip_velocity_x, slip_velocity_y, slip_velocity_z] = t.slip_velocity[row].into();
     ProbeRow {
         pressure: t.pressure[row],
         shear_x,

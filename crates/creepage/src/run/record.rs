@@ -236,8 +236,7 @@ impl Recorder {
         let reference = simulation.solid().reference();
         let deformation = |(node, u): (usize, &Padded)| match &rigid {
             Some(motion) if disk.contains(&node) => {
-                let (u, carried) = (u.xyz(), motion(reference[node].xyz()));
-                [0, 1, 2].map(|i| u[i] - carried[i])
+                (u.vector() - motion(reference[node].vector())).into()
             }
             _ => u.xyz(),
         };

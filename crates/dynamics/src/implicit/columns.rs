@@ -7,8 +7,10 @@ use super::operator::{ConjugateGradients, Frame, Operator, Vectors};
 use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
-use contact::{Matrix3, Trace};
+use contact::Trace;
 use mesh::Padded;
+use mesh::geometry::rotation_about_y;
+use nalgebra::{Matrix3, Vector3};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Part to which the residual of a column falls: contact works with columns that are nearly right, and corrects what they miss.
@@ -19,7 +21,7 @@ const MOST_PRODUCTS: usize = 200;
 #[derive(Debug, Default)]
 pub(crate) struct Columns {
     /// By the node of the trace: the velocities (m/s) of all nodes of its side of the trace under unit forces on it, along x, y and z.
-    of: HashMap<u32, Vec<Matrix3>>,
+    of: HashMap<u32, Vec<Matrix3<f64>>>,
     /// The nodes whose products are counted. A run that is resumed finds their columns again, which is no part of what it takes.
     pub(crate) counted: BTreeSet<u32>,
 }
@@ -42,7 +44,7 @@ const ALIKE: f64 = 0.02;
 
 impl Rows {
     /// Of the `trace` of a mesh with reference positions `reference` (m); with the centre of the hub that side 0 turns about, if there is one (m).
-    pub(crate) fn new(trace: &Trace, reference: &[Padded], centre: Option<[f64; 3]>) -> Self {
+    pub(crate) fn new(trace: &Trace, reference: &[Padded], centre: Option<Vector3<f64>>) -> Self {
         let positions = trace.gather(reference);
         let around = |node: usize| centre.filter(|_| node < trace.side(0).len());
         // along the row, and what all of a row have alike
@@ -120,7 +122,7 @@ impl Columns {
         }
         operator.set(system, nodes, Frame { angle: 0.0, with_hub: false, ..frame });
         let side = trace.side(side_of(trace, node));
-        let mut column = vec![[[0.0; 3]; 3]; side.len()];
+        let mut column = vec![Matrix3::zeros(); side.len()];
         let mut products = 0;
         for along in 0..3 {
             r.clear();
@@ -132,9 +134,7 @@ impl Columns {
             let work = (&mut *system, nodes);
             products += gradients.solve(operator, work, r, x, (TOLERANCE, MOST_PRODUCTS));
             for (block, &node) in column.iter_mut().zip(side) {
-                for (row, v) in block.iter_mut().zip(x.nodes[node as usize].xyz()) {
-                    row[along] = v;
-                }
+                block.set_column(along, &x.nodes[node as usize].vector());
             }
         }
         self.of.insert(node, column);
@@ -149,13 +149,16 @@ impl Columns {
         rows: &Rows,
         [node, loaded, source]: [u32; 3],
         angle: Option<f64>,
-    ) -> Matrix3 {
+    ) -> Matrix3<f64> {
         let first = if side_of(trace, loaded) == 0 { 0 } else { trace.side(0).len() };
         let at = rows.moved(node, loaded, source).unwrap_or(node);
-        let block = self.of.get(&source).map_or([[0.0; 3]; 3], |c| c[at as usize - first]);
+        let block = self.of.get(&source).map_or(Matrix3::zeros(), |c| c[at as usize - first]);
         let beside = rows.along[loaded as usize] - rows.along[source as usize];
         match angle {
-            Some(angle) if angle + beside != 0.0 => turned(block, angle + beside),
+            Some(angle) if angle + beside != 0.0 => {
+                let r = rotation_about_y(angle + beside);
+                r * block * r.transpose()
+            }
             _ => block,
         }
     }
@@ -164,15 +167,4 @@ impl Columns {
 /// The side of a node of the trace.
 pub(crate) fn side_of(trace: &Trace, node: u32) -> usize {
     usize::from(node as usize >= trace.side(0).len())
-}
-
-/// `R c R^T` with the turn R about +y.
-fn turned(c: Matrix3, angle: f64) -> Matrix3 {
-    let (sin, cos) = libm::sincos(angle);
-    let r = [[cos, 0.0, sin], [0.0, 1.0, 0.0], [-sin, 0.0, cos]];
-    let product = |a: Matrix3, b: Matrix3| {
-        a.map(|row| [0, 1, 2].map(|j: usize| (0..3).map(|k| row[k] * b[k][j]).sum::<f64>()))
-    };
-    let transposed = [0, 1, 2].map(|i: usize| r.map(|row| row[i]));
-    product(product(r, c), transposed)
 }

@@ -11,6 +11,7 @@ use crate::system::System;
 use crate::unsolved::Unsolved;
 use contact::{ContactSums, Corrected, Method};
 use mesh::Padded;
+use nalgebra::Vector3;
 
 /// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
 const TOLERANCE: f64 = 1e-8;
@@ -192,8 +193,8 @@ impl Implicit {
         if let Some(hub) = &system.hub {
             // only elements load nodes that it carries
             let between = |a: f64, b: f64| a + self.theta * (b - a);
-            let centre = [between(old.x, new.x), between(old.y, new.y), between(old.z, new.z)];
-            *load = hub.resultant_about(centre, &self.moved, force);
+            let [x, y, z] = [between(old.x, new.x), between(old.y, new.y), between(old.z, new.z)];
+            *load = hub.resultant_about(Vector3::new(x, y, z), &self.moved, force);
         }
         let inertia = self.add_dashpots_and_inertia(system, nodes, lead, &mut solved, load);
         self.operator.reduce(system, nodes, &mut self.residual.nodes);
@@ -224,7 +225,7 @@ impl Implicit {
             let on_upper = alpha > 0.0 && system.upper.contains(&n);
             let (rigid, arm) =
                 if on_upper { motion.at(reference[n]) } else { ([0.0; 4], [0.0; 3]) };
-            let mut pull = [0.0; 3];
+            let mut pull = Vector3::zeros();
             for i in 0..3 {
                 // the dashpot of mass damping is relative to the rigid motion, that of a quiet end to the ground
                 let c = dashpots[n][i];
@@ -236,18 +237,14 @@ impl Implicit {
                 pull[i] = dashpot;
             }
             if on_upper {
-                let moment = [
-                    arm[1] * pull[2] - arm[2] * pull[1],
-                    arm[2] * pull[0] - arm[0] * pull[2],
-                    arm[0] * pull[1] - arm[1] * pull[0],
-                ];
-                let all = pull.into_iter().chain(moment);
-                reaction.iter_mut().zip(all).for_each(|(sum, of)| sum.add(of));
+                let moment = Vector3::from(arm).cross(&pull);
+                let all = pull.iter().chain(&moment);
+                reaction.iter_mut().zip(all).for_each(|(sum, of)| sum.add(*of));
             }
         }
         solved.dissipated += power.value();
         let [fx, fy, fz, mx, my, mz] = reaction.map(|sum| sum.value());
-        load.add(&Resultant { force: [fx, fy, fz], moment: [mx, my, mz] });
+        load.add(&Resultant { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) });
         square.value()
     }
 

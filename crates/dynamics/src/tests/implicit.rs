@@ -130,13 +130,12 @@ fn forces_of_contact_keep_momentum_and_the_law_holds_at_the_end_of_the_step() {
     let mut slipping = 0;
     for i in 0..table.state.len() {
         let [shear, slip] = [table.shear[i], table.slip_velocity[i]];
-        let size = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
-        assert!(size(shear) <= 0.1 * table.pressure[i] * (1.0 + 1e-12));
+        assert!(shear.norm() <= 0.1 * table.pressure[i] * (1.0 + 1e-12));
         if table.state[i] == 2 {
             slipping += 1;
-            let along: f64 = (0..3).map(|k| shear[k] * slip[k]).sum();
+            let along = shear.dot(&slip);
             // unless it creeps at the tolerance of the step
-            assert!(size(slip) < 1e-6 || along < -0.999 * size(shear) * size(slip));
+            assert!(slip.norm() < 1e-6 || along < -0.999 * shear.norm() * slip.norm());
         }
     }
     assert!(slipping > 0);
@@ -167,8 +166,15 @@ fn the_load_on_a_hub_reaches_the_ground_through_long_steps() {
     let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
     let spin = Spin::Creepage { free: 0.0, creepage: 0.0, ramp: 0.0 };
     let top = level(4e-3);
-    let hub =
-        Hub::new([1e-3, 1e-3, 4e-3], &top, reference, mass, 1e-3, spin, Vertical::Load(100.0));
+    let hub = Hub::new(
+        [1e-3, 1e-3, 4e-3].into(),
+        &top,
+        reference,
+        mass,
+        1e-3,
+        spin,
+        Vertical::Load(100.0),
+    );
     setup.system.hub = Some(hub);
     setup.system.upper = 0..mesh.nodes.len();
     setup.system.fixed = (0..mesh.nodes.len() as u32)

@@ -16,7 +16,8 @@ fn cube() -> Mesh {
 fn setup(mesh: &Mesh, nodes: &[u32], spin: Spin, vertical: Vertical, sideways: Sideways) -> Setup {
     let mut setup = free_body(mesh, 0.67, Vec::new(), QuietEnd::default());
     let (reference, mass) = (setup.system.solid.reference(), &setup.system.mass);
-    let mut hub = Hub::new([0.5e-3, 1e-3, 1.5e-3], nodes, reference, mass, 0.0, spin, vertical);
+    let mut hub =
+        Hub::new([0.5e-3, 1e-3, 1.5e-3].into(), nodes, reference, mass, 0.0, spin, vertical);
     hub.sideways = Some(sideways);
     (hub.state.vx, hub.state.omega) = (sideways.speed, 1e4);
     setup.system.hub = Some(hub);

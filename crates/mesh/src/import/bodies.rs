@@ -289,7 +289,7 @@ fn turn_inside_out(imported: &mut Imported) -> Result<(), ImportError> {
     let Imported { mesh, elements, notes, .. } = imported;
     let (mut turned, mut first) = (0, None);
     for (e, hex) in mesh.hexes.iter_mut().enumerate() {
-        let shape = |hex: &[u32; 8]| scaled_jacobian(&hex.map(|n| mesh.nodes[n as usize]));
+        let shape = |hex: &[u32; 8]| scaled_jacobian(&hex.map(|n| mesh.nodes[n as usize].into()));
         let (corner, value) = shape(hex);
         if value > FLAT {
             continue;

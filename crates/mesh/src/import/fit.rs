@@ -9,6 +9,7 @@ use crate::grid::nodes_of;
 use crate::{
     Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
 };
+use nalgebra::Vector3;
 
 /// Largest relative deviation of a size of the mesh from that of the case. It allows for polygons instead of
 /// circles, and for coordinates of few digits.
@@ -51,7 +52,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
     sizes(&imported, shape)?;
     ends(&mut imported, shape)?;
     let Shape { disk, bar, zone, .. } = *shape;
-    let centre = [0.0, 0.0, disk.radius];
+    let centre = disk.radius * Vector3::z();
     let tread = SmoothSurface::Tread { centre, radius: disk.radius, crown: disk.crown };
     let top = SmoothSurface::Top { apex: 0.0, crown: bar.crown };
     let names = imported.names.clone();
@@ -78,7 +79,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         let nodes = nodes_of(&faces);
         if shape.exact {
             let limit = EXACT * zone.size;
-            let off = |&n: &u32| smooth.offset(mesh.nodes[n as usize]).abs();
+            let off = |&n: &u32| smooth.offset(mesh.at(n)).abs();
             let worst = nodes.iter().copied().max_by(|a, b| off(a).total_cmp(&off(b)));
             if let Some(n) = worst.filter(|n| off(n) > limit) {
                 let (node, distance) = (imported.nodes.id(n as usize), off(&n));

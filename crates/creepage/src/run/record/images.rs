@@ -50,8 +50,9 @@ impl Images {
     }
 
     /// Vectors of both sides.
-    pub(super) fn vectors(&self, values: [&[[f64; 3]]; 2]) -> Vec<[f64; 3]> {
-        self.both(values, mirrored)
+    pub(super) fn vectors<V: Copy + Into<[f64; 3]>>(&self, values: [&[V]; 2]) -> Vec<[f64; 3]> {
+        let [first, second] = values.map(|side| side.iter().map(|&v| v.into()).collect::<Vec<_>>());
+        self.both([&first, &second], mirrored)
     }
 
     /// Areas of both sides (m^2): a node on the plane has half of its own.

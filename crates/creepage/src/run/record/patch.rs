@@ -76,7 +76,7 @@ impl Patch {
         PatchMeasures {
             fit,
             areas: patch::PatchAreas { contact: self.multiplicity * areas.contact, ..areas },
-            peak_shear: bar.shear.iter().map(|s| length(*s)).fold(0.0, f64::max),
+            peak_shear: bar.shear.iter().map(|s| s.norm()).fold(0.0, f64::max),
             cone_excess: self.cone_excess(tables),
             stick_border: self.stick_border(bar, hub_x + fit[3]),
         }
@@ -87,7 +87,7 @@ impl Patch {
     fn cone_excess(&self, tables: &[NodalContact; 2]) -> f64 {
         let excess = |t: &NodalContact| {
             (0..t.nodes.len())
-                .map(|i| (length(t.shear[i]) - t.mu[i] * t.pressure[i]) / self.hertz_pressure)
+                .map(|i| (t.shear[i].norm() - t.mu[i] * t.pressure[i]) / self.hertz_pressure)
                 .fold(f64::NEG_INFINITY, f64::max)
         };
         let sides =
@@ -133,8 +133,4 @@ fn centreline(points: &[[f64; 3]], y: f64, size: f64) -> Vec<usize> {
     let mut line: Vec<usize> = (0..points.len()).filter(on_it).collect();
     line.sort_by(|&i, &j| points[i][0].total_cmp(&points[j][0]));
     line
-}
-
-fn length(v: [f64; 3]) -> f64 {
-    v.iter().map(|c| c * c).sum::<f64>().sqrt()
 }

@@ -24,16 +24,15 @@ impl Resultants {
     /// Those of a step, with the effective rolling radius (m) and the speed (m/s). The lateral forces of the mirror
     /// images of `half` a model cancel.
     pub(super) fn of(report: &StepReport, effective_radius: f64, speed: f64, half: bool) -> Self {
-        let [tangential, lateral, normal] = report.contact.force[DISK];
+        let [tangential, lateral, normal] = report.contact.force[DISK].into();
         let lateral = if half { 0.0 } else { lateral };
-        let other = report.contact.force[BAR];
-        let sum = (0..3).map(|i| (report.contact.force[DISK][i] + other[i]).powi(2)).sum::<f64>();
+        let sum = report.contact.force[DISK] + report.contact.force[BAR];
         Self {
             tangential,
             lateral,
             normal,
             creepage: report.omega * effective_radius / speed - 1.0,
-            mismatch: sum.sqrt() / report.contact.normal_force.max(f64::MIN_POSITIVE),
+            mismatch: sum.norm() / report.contact.normal_force.max(f64::MIN_POSITIVE),
         }
     }
 }

@@ -306,7 +306,7 @@ fn quiet(model: &Model) -> QuietEnd {
 
 fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
     Hub::new(
-        [0.0, 0.0, case.disk.radius],
+        [0.0, 0.0, case.disk.radius].into(),
         &model.hub,
         solid.reference(),
         &model.mass,

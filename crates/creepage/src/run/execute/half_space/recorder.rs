@@ -165,7 +165,7 @@ impl HalfSpaceRecorder {
             step: sums.step,
             time: sums.time,
             contact: ContactSums {
-                force: [[tx, ty, normal], [-tx, -ty, -normal]],
+                force: [[tx, ty, normal], [-tx, -ty, -normal]].map(Into::into),
                 normal_force: normal,
                 sweeps: sums.iterations,
                 unconverged: sums.unconverged,
@@ -206,7 +206,7 @@ impl HalfSpaceRecorder {
                 values.fill(0.0);
             }
             for values in [&mut table.shear, &mut table.slip_velocity, &mut table.slip] {
-                values.fill([0.0; 3]);
+                values.fill([0.0; 3].into());
             }
             table.mu.fill(law);
             table.state.fill(0);
@@ -234,7 +234,7 @@ impl HalfSpaceRecorder {
 }
 
 fn set(table: &mut NodalContact, row: usize, point: &PatchPoint, sign: f64) {
-    let on_surface = |v: [f64; 2]| [sign * v[0], sign * v[1], 0.0];
+    let on_surface = |v: [f64; 2]| [sign * v[0], sign * v[1], 0.0].into();
     table.pressure[row] = point.pressure;
     table.pass_pressure[row] = point.pressure;
     table.shear[row] = on_surface(point.shear);
