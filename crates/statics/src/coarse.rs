@@ -10,6 +10,7 @@ use crate::skyline::Skyline;
 use crate::space::{CHUNK, Group};
 use mesh::{HEX_EDGES, Mesh, Padded};
 use rayon::prelude::*;
+use solid::linear::AMPLITUDE;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
@@ -18,9 +19,6 @@ const CLUSTER: usize = 250;
 
 /// Clusters smaller than this part of [`CLUSTER`] join a neighbour.
 const SMALLEST: usize = 3;
-
-/// Largest displacement (m) of the motions that the products see.
-const AMPLITUDE: f64 = 1e-13;
 
 const NONE: u32 = u32::MAX;
 const MODES: usize = 6;
@@ -81,7 +79,7 @@ impl Frame {
 }
 
 impl Coarse {
-    /// Clusters the free nodes of `mesh`; `product` adds K x to y for x up to 1e-13 m.
+    /// Clusters the free nodes of `mesh`; `product` adds K x to y for x up to [`AMPLITUDE`].
     pub(crate) fn new(
         mesh: &Mesh,
         reference: &[Padded],

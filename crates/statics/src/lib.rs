@@ -5,7 +5,6 @@
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-mod cg;
 mod coarse;
 mod components;
 mod error;
