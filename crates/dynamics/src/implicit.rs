@@ -24,7 +24,8 @@ use crate::unsolved::Effort;
 use columns::{Columns, Rows};
 use contact::ContactSums;
 use mesh::Padded;
-use operator::{ConjugateGradients, Operator, Vectors};
+use operator::{Operator, Vectors};
+use solid::linear::ConjugateGradients;
 use std::collections::BTreeSet;
 
 /// A step that is not solved is cut in halves, these again, so often.
@@ -34,7 +35,7 @@ pub(crate) const CUTS: usize = 4;
 pub(crate) struct Implicit {
     pub(crate) theta: f64,
     operator: Operator,
-    gradients: ConjugateGradients,
+    gradients: ConjugateGradients<Vectors>,
     /// Mean velocity over the step (m/s), that of the nodes of the hub too.
     pub(crate) w: Vec<Padded>,
     /// Displacement `u + theta dt w` (m).
@@ -56,7 +57,7 @@ impl Implicit {
         Self {
             theta,
             operator: Operator::new(system, nodes),
-            gradients: ConjugateGradients::new(n),
+            gradients: ConjugateGradients::new(&Vectors::new(n)),
             w: vec![Padded::ZERO; n],
             moved: vec![Padded::ZERO; n],
             residual: Vectors::new(n),

@@ -21,6 +21,7 @@ mod gauss;
 mod geometry;
 mod kernel;
 mod lanes;
+pub mod linear;
 mod mass;
 mod material;
 mod peak;

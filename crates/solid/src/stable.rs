@@ -1,6 +1,7 @@
 //! The largest frequency of the assembled system, which sets the stable step 2/omega.
 
 use crate::full_stiffness::{full_stiffness, largest_eigenvalue_bound};
+use crate::linear::AMPLITUDE;
 use crate::material::Material;
 use crate::{Element, Elements, Formulation, mean_gradient};
 use mesh::{Mesh, Padded};
@@ -95,15 +96,10 @@ fn lightest_node(x: &[[f64; 3]; 8], density: f64) -> f64 {
     density * crate::mass::nodal_volumes(x).into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Largest displacement (m) for which [`largest_frequency`] asks for a product. Strains are then about 1e-10 in
-/// millimetre elements: the elements' force is linear to 1e-10, and no less accurate, since it is formed from
-/// displacements and not from deformed positions.
-const AMPLITUDE: f64 = 1e-13;
-
 /// Largest angular frequency (rad/s) of M^-1 K by `iterations` Lanczos steps on M^-1/2 K M^-1/2.
 ///
 /// `inverse_mass` holds one value per node (1/kg); zero holds the node. `product(x, y)` adds K x (N) to y; the entries
-/// of x are at most 1e-13 m, so that the force of the elements may take the place of K x. The value approaches the
+/// of x are at most [`AMPLITUDE`], so that the force of the elements may take the place of K x. The value approaches the
 /// true one from below: 40 steps bring it within about 1 %, a margin that the caller must add. The start vector is
 /// fixed, so that the result is reproducible. Zero if all nodes are held.
 pub fn largest_frequency(

@@ -5,12 +5,13 @@
 //! edges of the mesh, so that stretched elements are coarsened across their short edges, where
 //! their nodes are coupled most.
 
+use crate::cholesky::Factor;
 use crate::link::Link;
-use crate::skyline::Skyline;
 use crate::space::{CHUNK, Group};
 use mesh::{HEX_EDGES, Mesh, Padded};
 use nalgebra::Vector3;
 use rayon::prelude::*;
+use solid::linear::AMPLITUDE;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
@@ -20,8 +21,8 @@ const CLUSTER: usize = 250;
 /// Clusters smaller than this part of [`CLUSTER`] join a neighbour.
 const SMALLEST: usize = 3;
 
-/// Largest displacement (m) of the motions that the products see.
-const AMPLITUDE: f64 = 1e-13;
+/// Part of the slaves that may open or close until the coarse level follows: a preconditioner need only be like the tangent.
+const CHANGED: f64 = 0.1;
 
 const NONE: u32 = u32::MAX;
 const MODES: usize = 6;
@@ -38,13 +39,12 @@ pub(crate) struct Coarse {
     /// `W^T K W` in blocks (a, b), `a >= b`; groups of tied nodes come after the clusters and use
     /// the first unknown of their block.
     elastic: BTreeMap<(u32, u32), Block>,
-    /// Place of each block in the factor.
-    place: Vec<u32>,
-    factor: Skyline,
+    /// None before the first and where there is none: the coarse level then adds nothing.
+    factor: Option<Factor>,
+    /// The slaves whose springs are in the factor.
+    slaves: BTreeSet<usize>,
     /// Coarse residual, then solution.
     vector: Vec<f64>,
-    /// The same in the order of the factor.
-    ordered: Vec<f64>,
 }
 
 /// Origin and size of a cluster: its rotations move nodes by at most about one.
@@ -86,7 +86,7 @@ impl Frame {
 }
 
 impl Coarse {
-    /// Clusters the free nodes of `mesh`; `product` adds K x to y for x up to 1e-13 m.
+    /// Clusters the free nodes of `mesh`; `product` adds K x to y for x up to [`AMPLITUDE`].
     pub(crate) fn new(
         mesh: &Mesh,
         reference: &[Padded],
@@ -110,10 +110,9 @@ impl Coarse {
             begin,
             frames,
             elastic: BTreeMap::new(),
-            place: (0..blocks as u32).collect(),
-            factor: Skyline::default(),
+            factor: None,
+            slaves: BTreeSet::new(),
             vector: vec![0.0; MODES * blocks],
-            ordered: vec![0.0; MODES * blocks],
         };
         coarse.probe(mesh, reference, groups, product);
         coarse
@@ -183,12 +182,18 @@ impl Coarse {
         near
     }
 
-    /// Factorises `W^T K W` with springs (N/m) along `links`.
+    /// Factorises `W^T K W` with springs (N/m) along links, unless nearly all slaves are those of the factor that there is.
     pub(crate) fn factorise<'l>(
         &mut self,
         reference: &[Padded],
-        springs: impl Iterator<Item = (&'l Link, f64)>,
+        springs: impl Iterator<Item = (&'l Link, f64)> + Clone,
     ) {
+        let slaves: BTreeSet<usize> = springs.clone().map(|(link, _)| link.slave).collect();
+        let changes = slaves.symmetric_difference(&self.slaves).count();
+        if self.factor.is_some() && changes as f64 <= CHANGED * slaves.len() as f64 {
+            return;
+        }
+        self.slaves = slaves;
         let mut matrix = self.elastic.clone();
         for (link, k) in springs {
             let mut row = BTreeMap::<u32, [f64; MODES]>::new();
@@ -212,40 +217,16 @@ impl Coarse {
                 }
             }
         }
-        self.place = order(self.place.len(), matrix.keys());
-        let mut first: Vec<usize> = (0..self.place.len()).collect();
-        let place = |c: u32| self.place[c as usize] as usize;
-        for &(b, a) in matrix.keys() {
-            let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
-            first[high] = first[high].min(low);
-        }
-        let rows = first.iter().flat_map(|&f| [MODES * f; MODES]).collect();
-        let mut factor = Skyline::zero(rows);
-        for (&(b, a), block) in &matrix {
-            for i in 0..MODES {
-                for j in 0..MODES {
-                    let (row, column) = (MODES * place(b) + i, MODES * place(a) + j);
-                    if a != b || column <= row {
-                        *factor.entry(row.max(column), row.min(column)) = block[i][j];
-                    }
-                }
-            }
-        }
-        factor.factorise();
-        self.factor = factor;
+        self.factor = factor(self.vector.len(), &matrix);
     }
 
     /// `A^-1 W^T r`, whose motions [`motion`](Self::motion) and
     /// [`group_motion`](Self::group_motion) give.
     pub(crate) fn solve(&mut self, reference: &[Padded], groups: &[Group], r: &[Padded]) {
         self.restrict(reference, groups, r);
-        let Self { vector, ordered, place, factor, .. } = self;
-        for (own, &at) in vector.chunks(MODES).zip(&*place) {
-            ordered[MODES * at as usize..][..MODES].copy_from_slice(own);
-        }
-        factor.solve(ordered);
-        for (own, &at) in vector.chunks_mut(MODES).zip(&*place) {
-            own.copy_from_slice(&ordered[MODES * at as usize..][..MODES]);
+        match &mut self.factor {
+            Some(factor) => factor.solve(&mut self.vector),
+            None => self.vector.fill(0.0),
         }
     }
 
@@ -398,48 +379,21 @@ fn colours(near: &[BTreeSet<u32>]) -> Vec<Vec<u32>> {
     sets
 }
 
-/// Places of the blocks in the reverse order of Cuthill and McKee (1969), which keeps the envelope
-/// small.
-fn order<'a>(blocks: usize, pairs: impl Iterator<Item = &'a (u32, u32)>) -> Vec<u32> {
-    let mut near = vec![Vec::new(); blocks];
-    for &(b, a) in pairs {
-        if a != b {
-            near[a as usize].push(b);
-            near[b as usize].push(a);
-        }
-    }
-    let degree: Vec<usize> = near.iter().map(Vec::len).collect();
-    for list in &mut near {
-        list.sort_by_key(|&c| (degree[c as usize], c));
-    }
-    let walk = |start: usize, seen: &mut [bool], to: &mut Vec<u32>| {
-        let mut next = to.len();
-        seen[start] = true;
-        to.push(start as u32);
-        while next < to.len() {
-            let here = to[next] as usize;
-            next += 1;
-            for &c in &near[here] {
-                if !std::mem::replace(&mut seen[c as usize], true) {
-                    to.push(c);
+/// Factor of a matrix of so many unknowns, given by the blocks (b, a), `b >= a`, of its lower triangle.
+fn factor(unknowns: usize, matrix: &BTreeMap<(u32, u32), Block>) -> Option<Factor> {
+    let (mut columns, mut rows, mut values) = (vec![0], Vec::new(), Vec::new());
+    for column in 0..unknowns as u32 {
+        let (b, j) = (column / MODES as u32, column as usize % MODES);
+        for ((_, a), block) in matrix.range((b, 0)..=(b, b)) {
+            for i in 0..MODES {
+                let row = a * MODES as u32 + i as u32;
+                if row == column || row < column && block[j][i] != 0.0 {
+                    rows.push(row);
+                    values.push(block[j][i]);
                 }
             }
         }
-    };
-    let mut seen = vec![false; blocks];
-    let mut sequence = Vec::with_capacity(blocks);
-    for start in 0..blocks {
-        if !seen[start] {
-            // The last block of a walk from anywhere lies at an end of the part.
-            let mut trial = Vec::new();
-            walk(start, &mut seen.clone(), &mut trial);
-            let end = trial.last().map_or(start, |&c| c as usize);
-            walk(end, &mut seen, &mut sequence);
-        }
+        columns.push(rows.len() as u32);
     }
-    let mut place = vec![0; blocks];
-    for (at, c) in sequence.iter().rev().enumerate() {
-        place[*c as usize] = at as u32;
-    }
-    place
+    Factor::new(&columns, &rows, values)
 }

@@ -9,9 +9,10 @@ use crate::error::StaticsError;
 use crate::link::Link;
 use crate::newton::forcing;
 use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
-use crate::system::{StaticSystem, moved};
+use crate::system::StaticSystem;
 use contact::{Gap, GapFunction};
 use mesh::Padded;
+use solid::linear::Vector;
 use std::collections::{BTreeSet, HashSet};
 
 /// Gap (m) that counts as closed: a few hundred times the round-off of a coordinate.
@@ -112,7 +113,7 @@ pub(crate) fn solve(
             forcing(at.residual, before, system.problem.tolerance)
         };
         before = if changed { f64::INFINITY } else { at.residual };
-        jump.iter_mut().for_each(|j| *j = Padded::ZERO);
+        jump.set_zero();
         for (gap, link) in closed.iter().zip(&system.space.links) {
             link.add(link.slave, -gap.gap, &mut jump);
         }
@@ -121,12 +122,8 @@ pub(crate) fn solve(
         system.space.reduce(&mut r);
         at.cg_iterations = system.step(&mut r, &mut d, tolerance, &at)?;
         total += at.cg_iterations;
-        for (d, j) in d.iter_mut().zip(&jump) {
-            (0..3).for_each(|i| d[i] += j[i]);
-        }
-        let from = std::mem::take(&mut u);
-        u = vec![Padded::ZERO; n];
-        moved(&from, 1.0, &d, &mut u);
+        d.add(1.0, &jump);
+        u.add(1.0, &d);
         at.step = 1.0;
         energy = system.force(&u, &mut force, true);
     }

@@ -1,11 +1,12 @@
 //! Equilibrium of two elastic bodies in contact: the preload of a rolling run. SI units.
 //!
 //! [`solve`] is Newton's method on the elements and the contact of the dynamic stage; the linear systems are
-//! solved by preconditioned conjugate gradients on the products of the element kernel, without a matrix.
+//! solved by preconditioned conjugate gradients on the products of the element kernel, without a matrix but that of the
+//! preconditioner's coarse level, which faer factorises.
 
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
-mod cg;
+mod cholesky;
 mod coarse;
 mod components;
 mod error;
@@ -14,7 +15,6 @@ mod linear;
 mod link;
 mod newton;
 mod problem;
-mod skyline;
 mod solve;
 mod space;
 mod springs;

@@ -4,8 +4,9 @@ use crate::error::StaticsError;
 use crate::link::Link;
 use crate::problem::{Ending, Equilibrium, Iteration, NewtonReport};
 use crate::springs::{Pressed, Springs};
-use crate::system::{StaticSystem, moved};
+use crate::system::StaticSystem;
 use mesh::Padded;
+use solid::linear::{Vector, inner};
 
 /// Accuracy of the linear steps (Eisenstat and Walker 1996, choice 2): GAMMA times the square of
 /// the last reduction, between these bounds. The tangent of the undeformed state gains no more than
@@ -108,7 +109,7 @@ pub(crate) fn solve(
         r.copy_from_slice(&force);
         at.cg_iterations = system.step(&mut r, &mut d, tolerance, &at)?;
         total += at.cg_iterations;
-        let slope = system.space.inner(&force, &d);
+        let slope = inner(&force, &d);
         (at.step, energy, sums) = search(system, springs, &u, &d, slope, &mut trial, &mut force);
         std::mem::swap(&mut u, &mut trial);
     }
@@ -143,16 +144,17 @@ fn search(
     system: &mut StaticSystem<'_>,
     springs: &mut Springs<'_>,
     u: &[Padded],
-    d: &[Padded],
+    d: &Vec<Padded>,
     slope: f64,
-    trial: &mut [Padded],
+    trial: &mut Vec<Padded>,
     force: &mut [Padded],
 ) -> (f64, f64, Pressed) {
     let mut evaluate = |alpha: f64| {
-        moved(u, alpha, d, trial);
+        trial.copy_from_slice(u);
+        trial.add(alpha, d);
         let energy = system.force(trial, force, true);
         let sums = system.add_spring_force(springs, trial, force);
-        (system.space.inner(force, d), energy, sums)
+        (inner(force, d), energy, sums)
     };
     let mut alpha = 1.0;
     let mut found = evaluate(alpha);

@@ -12,6 +12,7 @@ use crate::supports::{Axis, Supports};
 use mesh::{Mesh, Padded};
 use nalgebra::{UnitVector3, Vector3};
 use rayon::prelude::*;
+use solid::linear::AMPLITUDE;
 
 /// Nodes per parallel chunk; fixed, so that sums do not depend on the number of threads.
 pub(crate) const CHUNK: usize = 4096;
@@ -63,7 +64,7 @@ impl Group {
 
 impl Space {
     /// `blocks` are the diagonal blocks of the elastic stiffness; `product` adds K x to y for
-    /// x up to 1e-13 m.
+    /// x up to [`AMPLITUDE`].
     pub(crate) fn new(
         mesh: &Mesh,
         reference: &[Padded],
@@ -82,10 +83,9 @@ impl Space {
                 let Axis::Loaded(load) = *motion else { continue };
                 let mut group = Group { nodes: tied.nodes.clone(), axis, load, stiffness: 0.0 };
                 let (mut x, mut y) = (vec![Padded::ZERO; n], vec![Padded::ZERO; n]);
-                const UNIT: f64 = 1e-13;
-                group.set(UNIT, &mut x);
+                group.set(AMPLITUDE, &mut x);
                 product(&x, &mut y);
-                group.stiffness = group.resultant(&y) / UNIT;
+                group.stiffness = group.resultant(&y) / AMPLITUDE;
                 groups.push(group);
             }
         }
@@ -209,15 +209,6 @@ impl Space {
         self.follow(z);
         self.slide(z);
         rz
-    }
-
-    /// `a . b`, summed in fixed chunks, which may come in any order.
-    pub(crate) fn inner(&mut self, a: &[Padded], b: &[Padded]) -> f64 {
-        self.partial
-            .par_iter_mut()
-            .zip(a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK)))
-            .for_each(|(sum, (a, b))| *sum = a.iter().zip(b).map(|(a, b)| product(a, b)).sum());
-        exact_sum::sum(self.partial.iter().copied())
     }
 
     /// Euclidean norm (N) of the reduced residual on the free coordinates.

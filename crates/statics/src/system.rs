@@ -1,6 +1,5 @@
 //! The bodies and what holds them: residual, tangent and guards that both enforcements share.
 
-use crate::cg::{Cg, Outcome};
 use crate::components::{Drift, Parts, body_of};
 use crate::error::StaticsError;
 use crate::link::Link;
@@ -10,6 +9,7 @@ use crate::springs::{Pressed, Springs};
 use crate::supports::Axis;
 use mesh::Padded;
 use rayon::prelude::*;
+use solid::linear::{ConjugateGradients, LinearSystem, Outcome, Vector, inner, small};
 use solid::{Centrifugal, Solid};
 
 /// Conjugate-gradient iterations in one Newton step after which it gives up.
@@ -23,7 +23,7 @@ pub(crate) struct StaticSystem<'a> {
     pub(crate) parts: Parts,
     /// Normal springs of the tangent.
     pub(crate) springs: Vec<(Link, f64)>,
-    cg: Cg,
+    gradients: ConjugateGradients<Vec<Padded>>,
     pub(crate) reference: Vec<Padded>,
     /// Sum of the loads' magnitudes (N).
     load: f64,
@@ -43,14 +43,14 @@ impl<'a> StaticSystem<'a> {
         let space = Space::new(problem.mesh, &reference, problem.supports, &blocks, product);
         let n = blocks.len();
         let load = space.groups.iter().map(|g| g.load.abs()).sum();
-        let cg = Cg::new(n);
+        let gradients = ConjugateGradients::new(&vec![Padded::ZERO; n]);
         Ok(Self {
             solid,
             problem,
             space,
             parts,
             springs: Vec::new(),
-            cg,
+            gradients,
             reference,
             load,
             largest: f64::MIN_POSITIVE,
@@ -129,38 +129,40 @@ impl<'a> StaticSystem<'a> {
         if self.load > 0.0 {
             return self.load;
         }
-        self.largest = self.largest.max(self.space.inner(force, force).sqrt());
+        self.largest = self.largest.max(inner(force, force).sqrt());
         self.largest
     }
 
     /// `y -= K x` with the stiffness of the undeformed state.
-    pub(crate) fn subtract_stiffness_product(&mut self, x: &[Padded], y: &mut [Padded]) {
-        let largest = x.iter().flat_map(|x| x.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()));
+    pub(crate) fn subtract_stiffness_product(&mut self, x: &[Padded], y: &mut Vec<Padded>) {
+        let mut scaled = x.to_vec();
+        let largest = scaled.largest();
         if largest == 0.0 {
             return;
         }
-        let small = 1e-13 / largest;
-        let scaled: Vec<Padded> = x.iter().map(|x| Padded(x.0.map(|c| small * c))).collect();
+        scaled.scale(small(largest));
         let mut product = vec![Padded::ZERO; x.len()];
         self.solid.subtract_elastic_force(&scaled, &mut product, false);
-        for (y, p) in y.iter_mut().zip(&product) {
-            (0..3).for_each(|i| y[i] += p[i] / small);
-        }
+        y.add(1.0 / small(largest), &product);
     }
 
     /// The linear step under the reduced residual `r`, which is used up.
     pub(crate) fn step(
         &mut self,
-        r: &mut [Padded],
-        x: &mut [Padded],
+        r: &mut Vec<Padded>,
+        x: &mut Vec<Padded>,
         tolerance: f64,
         at: &Iteration,
     ) -> Result<usize, StaticsError> {
-        let Self { cg, solid, space, springs, .. } = self;
-        match cg.solve(solid, space, springs, r, x, tolerance, MOST_CG) {
-            Outcome::Converged(iterations) => Ok(iterations),
-            Outcome::Slow(iterations) => Err(StaticsError::Linear { iterations, at: *at }),
-            Outcome::Flat(node) => {
+        let Self { gradients, solid, space, springs, .. } = self;
+        space.slide(r);
+        let mut tangent = Tangent { solid, space, springs };
+        let (outcome, iterations) = gradients.solve(&mut tangent, r, x, tolerance, MOST_CG);
+        match outcome {
+            Outcome::Converged => Ok(iterations),
+            Outcome::Slow => Err(StaticsError::Linear { iterations, at: *at }),
+            Outcome::Flat => {
+                let node = farthest(self.gradients.direction());
                 Err(StaticsError::Flat { node, body: self.body(node), position: self.at(node) })
             }
         }
@@ -261,15 +263,32 @@ impl<'a> StaticSystem<'a> {
     }
 }
 
-/// `u + alpha d`.
-pub(crate) fn moved(u: &[Padded], alpha: f64, d: &[Padded], to: &mut [Padded]) {
-    to.par_chunks_mut(CHUNK).zip(u.par_chunks(CHUNK).zip(d.par_chunks(CHUNK))).for_each(
-        |(to, (u, d))| {
-            for (to, (u, d)) in to.iter_mut().zip(u.iter().zip(d)) {
-                for i in 0..3 {
-                    to[i] = u[i] + alpha * d[i];
-                }
-            }
-        },
-    );
+/// The tangent `T^T (K + K_springs) T` with the stiffness K of the undeformed state.
+struct Tangent<'a> {
+    solid: &'a mut Solid,
+    space: &'a mut Space,
+    springs: &'a [(Link, f64)],
+}
+
+impl LinearSystem<Vec<Padded>> for Tangent<'_> {
+    fn answer(&mut self, p: &mut Vec<Padded>, q: &mut Vec<Padded>) {
+        q.set_zero();
+        self.solid.subtract_elastic_force(p, q, false);
+        for (link, k) in self.springs {
+            link.push(-k * link.opening(p), q);
+        }
+        self.space.reduce(q);
+    }
+
+    fn precondition(&mut self, r: &Vec<Padded>, z: &mut Vec<Padded>) -> f64 {
+        self.space.precondition(r, z)
+    }
+}
+
+/// The node that moves most.
+fn farthest(motion: &[Padded]) -> usize {
+    let square = |v: &Padded| v.xyz().iter().map(|c| c * c).sum::<f64>();
+    (0..motion.len())
+        .max_by(|&i, &j| square(&motion[i]).total_cmp(&square(&motion[j])))
+        .unwrap_or(0)
 }

@@ -3,7 +3,7 @@
 //! A column depends on its node, the step and the undeformed bodies alone, so that it does not matter to the result when it was found. Along
 //! a surface whose nodes lie in rows at one pitch, a column is that of another node of its row, moved along ([`Rows`]).
 
-use super::operator::{ConjugateGradients, Frame, Operator, Vectors};
+use super::operator::{Frame, Operator, StepMatrix, Vectors};
 use crate::nodal_state::NodalState;
 use crate::paired;
 use crate::system::System;
@@ -11,6 +11,7 @@ use contact::Trace;
 use mesh::Padded;
 use mesh::geometry::rotation_about_y;
 use nalgebra::{Matrix3, Vector3};
+use solid::linear::{ConjugateGradients, Vector};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Part to which the residual of a column falls: contact works with columns that are nearly right, and corrects what they miss.
@@ -112,7 +113,7 @@ impl Columns {
         &mut self,
         node: u32,
         trace: &Trace,
-        (operator, gradients): (&mut Operator, &mut ConjugateGradients),
+        (operator, gradients): (&mut Operator, &mut ConjugateGradients<Vectors>),
         (system, nodes): (&mut System, &NodalState),
         [r, x]: [&mut Vectors; 2],
         frame: Frame,
@@ -125,14 +126,14 @@ impl Columns {
         let mut column = vec![Matrix3::zeros(); side.len()];
         let mut products = 0;
         for along in 0..3 {
-            r.clear();
+            r.set_zero();
             // a force on a node that moves as one with others stands for those on all of them
             for node in paired::group(&system.paired, trace.in_mesh(node)) {
                 r.nodes[node as usize][along] = 1.0;
             }
             operator.reduce(system, nodes, &mut r.nodes);
-            let work = (&mut *system, nodes);
-            products += gradients.solve(operator, work, r, x, (TOLERANCE, MOST_PRODUCTS));
+            let mut matrix = StepMatrix { operator, system, nodes };
+            products += gradients.solve(&mut matrix, r, x, TOLERANCE, MOST_PRODUCTS).1;
             for (block, &node) in column.iter_mut().zip(side) {
                 block.set_column(along, &x.nodes[node as usize].vector());
             }

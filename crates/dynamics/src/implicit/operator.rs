@@ -1,23 +1,16 @@
-//! The matrix of an implicit step, `A = M/(theta dt) + C + (theta dt + eta) K`, as a product, and conjugate gradients with it.
+//! The matrix of an implicit step, `A = M/(theta dt) + C + (theta dt + eta) K`, as a product.
 //!
 //! K is the stiffness of the undeformed state, that of the upper body turned with the hub, by the products of the element kernels; C are the
 //! dashpots of quiet ends and of mass-proportional damping, eta is the Kelvin–Voigt time. Unknowns are the velocities of the free nodes and the velocity
 //! of the hub along z and about its axle, where forces decide on them.
 
-use crate::hub::Hub;
 use crate::load::Fixed;
 use crate::nodal_state::{CHUNK, NodalState};
 use crate::paired;
 use crate::system::System;
 use mesh::Padded;
 use rayon::prelude::*;
-
-/// Largest displacement (m) that products start from: the force of the elements is linear to the strain, which stays far
-/// below 1e-6.
-const AMPLITUDE: f64 = 1e-13;
-
-/// Curvature over the residual's square that counts as none.
-const FLAT: f64 = 1e-14;
+use solid::linear::{LinearSystem, Vector, inner, small};
 
 /// A velocity or a force: of the nodes, and of the hub along z and about its axle.
 #[derive(Clone, Debug)]
@@ -30,43 +23,37 @@ impl Vectors {
     pub(crate) fn new(nodes: usize) -> Self {
         Self { nodes: vec![Padded::ZERO; nodes], hub: [0.0; 2] }
     }
+}
 
-    /// `self += s other`.
-    pub(crate) fn add(&mut self, s: f64, other: &Self) {
-        self.nodes.par_chunks_mut(CHUNK).zip(other.nodes.par_chunks(CHUNK)).for_each(|(a, b)| {
-            for (a, b) in a.iter_mut().zip(b) {
-                for i in 0..3 {
-                    a[i] += s * b[i];
-                }
-            }
-        });
-        for i in 0..2 {
-            self.hub[i] += s * other.hub[i];
-        }
-    }
-
-    /// `self = other + s self`.
-    fn follow(&mut self, other: &Self, s: f64) {
-        self.nodes.par_chunks_mut(CHUNK).zip(other.nodes.par_chunks(CHUNK)).for_each(|(a, b)| {
-            for (a, b) in a.iter_mut().zip(b) {
-                for i in 0..3 {
-                    a[i] = b[i] + s * a[i];
-                }
-            }
-        });
-        for i in 0..2 {
-            self.hub[i] = other.hub[i] + s * self.hub[i];
-        }
-    }
-
-    fn copy(&mut self, other: &Self) {
-        self.nodes.copy_from_slice(&other.nodes);
-        self.hub = other.hub;
-    }
-
-    pub(crate) fn clear(&mut self) {
-        self.nodes.fill(Padded::ZERO);
+impl Vector for Vectors {
+    fn set_zero(&mut self) {
+        self.nodes.set_zero();
         self.hub = [0.0; 2];
+    }
+
+    fn scale(&mut self, s: f64) {
+        self.nodes.scale(s);
+        self.hub = self.hub.map(|c| s * c);
+    }
+
+    fn add(&mut self, s: f64, other: &Self) {
+        self.nodes.add(s, &other.nodes);
+        (0..2).for_each(|i| self.hub[i] += s * other.hub[i]);
+    }
+
+    fn follow(&mut self, other: &Self, s: f64) {
+        self.nodes.follow(&other.nodes, s);
+        self.hub = [0, 1].map(|i| other.hub[i] + s * self.hub[i]);
+    }
+
+    fn inner(&self, other: &Self) -> f64 {
+        let [a, b] = [self.hub, other.hub];
+        inner(&self.nodes, &other.nodes) + a[0] * b[0] + a[1] * b[1]
+    }
+
+    /// That of the nodes and of the hub along z (m/s).
+    fn largest(&self) -> f64 {
+        self.nodes.largest().max(self.hub[0].abs())
     }
 }
 
@@ -101,8 +88,6 @@ pub(crate) struct Operator {
     /// What the elements see, and their answer.
     turned: Vec<Padded>,
     answer: Vec<Padded>,
-    /// Partial sums over chunks.
-    partial: Vec<f64>,
 }
 
 impl Operator {
@@ -130,7 +115,6 @@ impl Operator {
             free: [false; 2],
             turned: vec![Padded::ZERO; n],
             answer: vec![Padded::ZERO; n],
-            partial: vec![0.0; n.div_ceil(CHUNK)],
         }
     }
 
@@ -173,11 +157,6 @@ impl Operator {
         }
     }
 
-    /// The square of the norm of a force.
-    pub(crate) fn square(&mut self, force: &[Padded]) -> f64 {
-        inner(&mut self.partial, force, force)
-    }
-
     /// Leaves of a force what the unknowns answer: nothing on nodes that are held or carried, the mean on pairs.
     pub(crate) fn reduce(&self, system: &System, nodes: &NodalState, force: &mut [Padded]) {
         for (f, w) in force.iter_mut().zip(&nodes.inverse_mass) {
@@ -189,30 +168,22 @@ impl Operator {
         paired::share(&system.paired, force);
     }
 
-    /// `y = K x` with `x` small enough by the factor `small`, both over all nodes; in `answer`.
-    fn stiffness_product(&mut self, system: &mut System, x: &[Padded], small: f64) {
+    /// `-K x` of small motions of all nodes, in `answer`.
+    fn elastic_answer(&mut self, system: &mut System, x: &[Padded]) {
         let upper = system.upper.clone();
         let (sin, cos) = libm::sincos(self.frame.angle);
-        let turned = &mut self.turned;
-        turned.par_chunks_mut(CHUNK).zip(x.par_chunks(CHUNK)).for_each(|(to, x)| {
-            for (to, x) in to.iter_mut().zip(x) {
-                *to = Padded([small * x[0], small * x[1], small * x[2], 0.0]);
-            }
-        });
-        if sin != 0.0 {
+        let seen: &[Padded] = if sin != 0.0 {
+            self.turned.copy_from_slice(x);
             // back by the turn about +y
-            for x in &mut turned[upper.clone()] {
+            for x in &mut self.turned[upper.clone()] {
                 (x[0], x[2]) = (cos * x[0] - sin * x[2], cos * x[2] + sin * x[0]);
             }
-        }
-        self.answer.par_chunks_mut(CHUNK).for_each(|answer| answer.fill(Padded::ZERO));
-        system.solid.subtract_elastic_force(&self.turned, &mut self.answer, false);
-        let large = -1.0 / small;
-        self.answer.par_chunks_mut(CHUNK).for_each(|answer| {
-            for y in answer {
-                *y = Padded(y.0.map(|c| large * c));
-            }
-        });
+            &self.turned
+        } else {
+            x
+        };
+        self.answer.set_zero();
+        system.solid.subtract_elastic_force(seen, &mut self.answer, false);
         if sin != 0.0 {
             for y in &mut self.answer[upper] {
                 (y[0], y[2]) = (cos * y[0] + sin * y[2], cos * y[2] - sin * y[0]);
@@ -222,53 +193,58 @@ impl Operator {
 
     /// `x . K x` of velocities of all nodes (W/s).
     pub(crate) fn stiffness_energy(&mut self, system: &mut System, x: &[Padded]) -> f64 {
-        let small = AMPLITUDE / largest(x).max(f64::MIN_POSITIVE);
-        self.stiffness_product(system, x, small);
-        let Self { answer, partial, .. } = self;
-        inner(partial, x, answer)
+        let mut x = x.to_vec();
+        let small = small(x.largest().max(f64::MIN_POSITIVE));
+        x.scale(small);
+        self.elastic_answer(system, &x);
+        -inner(&x, &self.answer) / (small * small)
     }
+}
 
-    /// `y = A x`. Gives the nodes of the hub in `x` the velocities of the hub for the product, and clears them again.
-    fn product(
-        &mut self,
-        system: &mut System,
-        nodes: &NodalState,
-        x: &mut Vectors,
-        y: &mut Vectors,
-        small: f64,
-    ) {
-        if let Some(hub) = system.hub.as_ref().filter(|_| self.frame.with_hub) {
+/// The matrix of a step with what its product needs.
+pub(crate) struct StepMatrix<'a> {
+    pub(crate) operator: &'a mut Operator,
+    pub(crate) system: &'a mut System,
+    pub(crate) nodes: &'a NodalState,
+}
+
+impl LinearSystem<Vectors> for StepMatrix<'_> {
+    /// Gives the nodes of the hub in `x` the velocities of the hub for the product, and clears them again.
+    fn answer(&mut self, x: &mut Vectors, y: &mut Vectors) {
+        let Self { operator, system, nodes } = self;
+        if let Some(hub) = system.hub.as_ref().filter(|_| operator.frame.with_hub) {
             hub.add_motion(x.hub, &nodes.displacement, &mut x.nodes);
         }
-        self.stiffness_product(system, &x.nodes, small);
-        let stiff = self.frame.lead + self.eta;
-        let per_lead = 1.0 / self.frame.lead;
+        operator.elastic_answer(system, &x.nodes);
+        let Operator { frame, eta, answer, dashpots, free, mass, .. } = &**operator;
+        let stiff = frame.lead + eta;
+        let per_lead = 1.0 / frame.lead;
         let arrays = y.nodes.par_chunks_mut(CHUNK).zip(x.nodes.par_chunks(CHUNK));
-        let arrays = arrays.zip(self.answer.par_chunks(CHUNK).zip(self.dashpots.par_chunks(CHUNK)));
-        arrays.zip(nodes.inverse_mass.par_chunks(CHUNK)).for_each(|(((y, x), (k, c)), w)| {
-            for ((((y, x), k), c), w) in y.iter_mut().zip(x).zip(k).zip(c).zip(w) {
+        let arrays = arrays.zip(answer.par_chunks(CHUNK).zip(dashpots.par_chunks(CHUNK)));
+        arrays.zip(nodes.inverse_mass.par_chunks(CHUNK)).for_each(|(((y, x), (f, c)), w)| {
+            for ((((y, x), f), c), w) in y.iter_mut().zip(x).zip(f).zip(c).zip(w) {
                 let mass = if *w > 0.0 { per_lead / w } else { 0.0 };
                 for i in 0..3 {
-                    y[i] = stiff * k[i] + (mass + c[i]) * x[i];
+                    y[i] = stiff * f[i] - (mass + c[i]) * x[i];
                 }
             }
         });
         y.hub = [0.0; 2];
-        if let Some(hub) = system.hub.as_ref().filter(|_| self.frame.with_hub) {
+        if let Some(hub) = system.hub.as_ref().filter(|_| frame.with_hub) {
             let load = hub.resultant(&nodes.displacement, &y.nodes);
             let [z, turn] = x.hub;
-            let answer = [load.force[2], load.moment[1]];
-            for i in (0..2).filter(|&i| self.free[i]) {
-                let momentum = self.mass[i][0] * z + self.mass[i][1] * turn;
-                y.hub[i] = momentum / self.frame.dt + answer[i];
+            let elastic = [load.force[2], load.moment[1]];
+            for i in (0..2).filter(|&i| free[i]) {
+                let momentum = mass[i][0] * z + mass[i][1] * turn;
+                y.hub[i] = elastic[i] - momentum / frame.dt;
             }
-            clear(hub, &mut x.nodes);
+            hub.nodes.iter().for_each(|&n| x.nodes[n as usize] = Padded::ZERO);
         }
-        self.reduce(system, nodes, &mut y.nodes);
+        operator.reduce(system, nodes, &mut y.nodes);
     }
 
     fn precondition(&mut self, r: &Vectors, z: &mut Vectors) -> f64 {
-        let Self { inverse, partial, hub_inverse, free, .. } = self;
+        let Operator { inverse, hub_inverse, free, .. } = &*self.operator;
         z.nodes
             .par_chunks_mut(CHUNK)
             .zip(r.nodes.par_chunks(CHUNK).zip(inverse.par_chunks(CHUNK)))
@@ -278,82 +254,6 @@ impl Operator {
                 }
             });
         z.hub = [0, 1].map(|i| if free[i] { r.hub[i] * hub_inverse[i] } else { 0.0 });
-        inner(partial, &r.nodes, &z.nodes) + r.hub[0] * z.hub[0] + r.hub[1] * z.hub[1]
+        r.inner(z)
     }
-}
-
-/// Work vectors of conjugate gradients.
-pub(crate) struct ConjugateGradients {
-    z: Vectors,
-    p: Vectors,
-    q: Vectors,
-}
-
-impl ConjugateGradients {
-    pub(crate) fn new(nodes: usize) -> Self {
-        let [z, p, q] = [0; 3].map(|_| Vectors::new(nodes));
-        Self { z, p, q }
-    }
-
-    /// Solves `A x = r`; `r`, reduced, is used up. Ends where `sqrt(r . D^-1 r)` has fallen by `tolerance`, or after `most` products;
-    /// returns how many there were.
-    pub(crate) fn solve(
-        &mut self,
-        operator: &mut Operator,
-        (system, nodes): (&mut System, &NodalState),
-        r: &mut Vectors,
-        x: &mut Vectors,
-        (tolerance, most): (f64, usize),
-    ) -> usize {
-        let Self { z, p, q } = self;
-        x.clear();
-        let mut rz = operator.precondition(r, z);
-        let size = largest(&z.nodes).max(z.hub[0].abs());
-        if !(rz > 0.0 && size > 0.0) {
-            return 0;
-        }
-        let small = AMPLITUDE / size;
-        p.copy(z);
-        let enough = rz * tolerance * tolerance;
-        for product in 1..=most {
-            operator.product(system, nodes, p, q, small);
-            let curvature = inner(&mut operator.partial, &p.nodes, &q.nodes)
-                + p.hub[0] * q.hub[0]
-                + p.hub[1] * q.hub[1];
-            let stiff = curvature > FLAT * rz;
-            if !stiff {
-                return product;
-            }
-            let alpha = rz / curvature;
-            x.add(alpha, p);
-            r.add(-alpha, q);
-            let before = rz;
-            rz = operator.precondition(r, z);
-            if rz <= enough {
-                return product;
-            }
-            p.follow(z, rz / before);
-        }
-        most
-    }
-}
-
-/// Clears the nodes of the hub.
-fn clear(hub: &Hub, field: &mut [Padded]) {
-    hub.nodes.iter().for_each(|&n| field[n as usize] = Padded::ZERO);
-}
-
-fn largest(v: &[Padded]) -> f64 {
-    v.iter().flat_map(|v| v.xyz()).fold(0.0, |m: f64, c| m.max(c.abs()))
-}
-
-/// a . b, in an order that does not depend on the threads.
-fn inner(partial: &mut [f64], a: &[Padded], b: &[Padded]) -> f64 {
-    partial.par_iter_mut().zip(a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK))).for_each(
-        |(sum, (a, b))| {
-            let dot = |a: &Padded, b: &Padded| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-            *sum = a.iter().zip(b).map(|(a, b)| dot(a, b)).sum();
-        },
-    );
-    partial.iter().sum()
 }

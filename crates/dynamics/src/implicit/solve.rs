@@ -1,7 +1,7 @@
 //! The solution of an implicit step: Newton's method on velocities, contact corrected after each iteration.
 
 use super::columns::side_of;
-use super::operator::Frame;
+use super::operator::{Frame, StepMatrix};
 use super::{Implicit, Solved, Span};
 use crate::dashpots::RigidMotion;
 use crate::hub::{HubState, Resultant};
@@ -12,6 +12,7 @@ use crate::unsolved::Unsolved;
 use contact::{ContactSums, Corrected, Method};
 use mesh::Padded;
 use nalgebra::Vector3;
+use solid::linear::{Vector, inner};
 
 /// A step is solved where the residual over the forces, and the change of contact forces over the largest, are below this.
 const TOLERANCE: f64 = 1e-8;
@@ -67,12 +68,10 @@ impl Implicit {
             }
             let Self { operator, gradients, residual, correction, .. } = self;
             let accuracy = LINEAR.max((0.1 * TOLERANCE / at.residual).min(0.3));
-            let work = (&mut *system, &*nodes);
+            let mut matrix = StepMatrix { operator, system, nodes };
             self.effort.products +=
-                gradients.solve(operator, work, residual, correction, (accuracy, MOST_PRODUCTS));
-            for (w, by) in self.w.iter_mut().zip(&self.correction.nodes) {
-                (0..3).for_each(|i| w[i] += by[i]);
-            }
+                gradients.solve(&mut matrix, residual, correction, accuracy, MOST_PRODUCTS).1;
+            self.w.add(1.0, &self.correction.nodes);
             (0..2).for_each(|i| unknown[i] += self.correction.hub[i]);
             corrected = self.correct_contact(system, nodes, span);
         }
@@ -175,7 +174,7 @@ impl Implicit {
         force.fill(Padded::ZERO);
         let sums = system.solid.subtract_internal_force(&self.moved, &self.w, force, false);
         solved.dissipated = sums.viscous_power;
-        let scale = self.operator.square(force);
+        let scale = inner(force, force);
         let at = time + lead;
         system.load.apply(at, force);
         solved.given = system.load.power(at, &self.w);
