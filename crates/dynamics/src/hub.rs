@@ -595,11 +595,9 @@ enum Given {
 /// The rotations are kept as `R - I`, so that displacements much smaller than arms have their digits.
 struct Placement {
     moved: Vector3<f64>,
-    /// Sine, and cosine minus one, of the angle turned about the axle.
-    roll: [f64; 2],
     /// `R_y - I` and `R_z - I`.
-    rolled: Matrix3<f64>,
-    turned: Matrix3<f64>,
+    roll: Matrix3<f64>,
+    heading: Matrix3<f64>,
 }
 
 impl Placement {
@@ -609,39 +607,38 @@ impl Placement {
             let half = libm::sin(0.5 * angle);
             [libm::sin(angle), -2.0 * half * half]
         };
-        let (roll, [sin, cos]) = (turn(state.angle), turn(state.heading));
+        let ([s, c], [s_z, c_z]) = (turn(state.angle), turn(state.heading));
         Self {
             moved: Vector3::new(state.x, state.y, state.z),
-            roll,
-            rolled: Matrix3::new(roll[1], 0.0, roll[0], 0.0, 0.0, 0.0, -roll[0], 0.0, roll[1]),
-            turned: Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 0.0),
+            roll: Matrix3::new(c, 0.0, s, 0.0, 0.0, 0.0, -s, 0.0, c),
+            heading: Matrix3::new(c_z, -s_z, 0.0, s_z, c_z, 0.0, 0.0, 0.0, 0.0),
         }
     }
 
     /// A vector in x and z of the reference configuration, turned about the axle: in x along the heading, and z.
     fn turned(&self, [x, z]: [f64; 2]) -> [f64; 2] {
-        let [sin, cos_minus_one] = self.roll;
+        let (sin, cos_minus_one) = (self.roll.m13, self.roll.m11);
         [x + cos_minus_one * x + sin * z, z + cos_minus_one * z - sin * x]
     }
 
     /// Second moments of the reference configuration, turned about the axle.
     fn turned_about_the_axle(&self, second: &SecondMoments) -> SecondMoments {
-        second.turned(self.roll[0], 1.0 + self.roll[1])
+        second.turned(self.roll.m13, 1.0 + self.roll.m11)
     }
 
     /// The vector `R_z^T v` of components along and across the heading, and along z.
     fn along_and_across(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        v + self.turned.tr_mul(v)
+        v + self.heading.tr_mul(v)
     }
 
     /// The vector `R_z v` of such components.
     fn in_x_and_y(&self, v: &Vector3<f64>) -> Vector3<f64> {
-        v + self.turned * v
+        v + self.heading * v
     }
 
     /// Displacement `(R_z R_y - I) r + u` (m) of the point at `arm` r from the centre.
     fn displacement(&self, arm: &Vector3<f64>) -> Vector3<f64> {
-        let rolled = self.rolled * arm;
-        rolled + self.turned * (arm + rolled) + self.moved
+        let rolled = self.roll * arm;
+        rolled + self.heading * (arm + rolled) + self.moved
     }
 }
