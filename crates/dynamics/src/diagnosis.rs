@@ -11,7 +11,7 @@ pub const USUAL_HOURGLASS: f64 = 0.05;
 pub enum Cause {
     /// The time step is larger than the stability limit.
     UnstableStep {
-        /// Step over the limit 2/omega_max.
+        /// Step over the longest stable one.
         ratio: f64,
     },
     /// Contact springs that closed after the step was chosen make it larger than the limit.
@@ -131,7 +131,7 @@ impl fmt::Display for Diagnosis {
         match self.cause {
             Cause::UnstableStep { ratio } => write!(
                 f,
-                "the time step is {ratio:.2} times the stability limit 2/omega_max and the motion \
+                "the time step is {ratio:.2} times the stability limit and the motion \
                  grows without bound{}",
                 from_nowhere(*imbalance)
             )?,

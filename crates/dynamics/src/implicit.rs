@@ -70,7 +70,7 @@ impl Implicit {
 
     /// `w . K w` of the mean velocity over the last step (W/s).
     pub(crate) fn stiffness_energy(&mut self, system: &mut System) -> f64 {
-        self.operator.stiffness_energy(system, &self.w)
+        self.operator.stiffness_energy(system, &mut self.w)
     }
 
     /// The nodes whose columns are in the count of products, of whole steps and of each cut.

@@ -3,6 +3,7 @@
 //! The force of the elements under a small motion p stands for -K p. It is formed from displacements and not from deformed
 //! positions, so that it is as accurate for small motions as for large ones.
 
+use exact_sum::ExactSum;
 use mesh::Padded;
 use rayon::prelude::*;
 
@@ -28,9 +29,15 @@ const FLAT: f64 = 1e-13;
 pub fn inner(a: &[Padded], b: &[Padded]) -> f64 {
     let dot = |a: &Padded, b: &Padded| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let chunks = a.par_chunks(CHUNK).zip(b.par_chunks(CHUNK));
-    let sums: Vec<f64> =
-        chunks.map(|(a, b)| a.iter().zip(b).map(|(a, b)| dot(a, b)).sum()).collect();
-    exact_sum::sum(sums)
+    let of_chunk = |mut sum: ExactSum, (a, b): (&[Padded], &[Padded])| {
+        sum.add(a.iter().zip(b).map(|(a, b)| dot(a, b)).sum());
+        sum
+    };
+    let merged = |mut sum: ExactSum, other| {
+        sum.merge(other);
+        sum
+    };
+    chunks.fold(|| ExactSum::ZERO, of_chunk).reduce(|| ExactSum::ZERO, merged).value()
 }
 
 /// A motion, or a force.
@@ -104,6 +111,8 @@ pub enum Outcome {
     Converged,
     /// A direction without stiffness.
     Flat,
+    /// Nothing: the right side is no number.
+    NotANumber,
     /// The limit of products.
     Slow,
 }
@@ -137,6 +146,9 @@ impl<V: Vector> ConjugateGradients<V> {
         x.set_zero();
         let mut rz = system.precondition(r, z);
         let largest = z.largest();
+        if !rz.is_finite() {
+            return (Outcome::NotANumber, 0);
+        }
         if rz == 0.0 || largest == 0.0 {
             return (Outcome::Converged, 0);
         }
@@ -235,5 +247,12 @@ mod tests {
         let (outcome, _) = gradients.solve(&mut Chain { ground: 0.0 }, &mut r, &mut x, 1e-13, 200);
         assert_eq!(outcome, Outcome::Flat);
         assert!(gradients.direction().largest() > 0.0);
+
+        for some in [1, 50] {
+            let mut r = force.clone();
+            r[..some].fill(Padded::new([f64::NAN; 3]));
+            let (outcome, _) = gradients.solve(&mut chain, &mut r, &mut x, 1e-13, 200);
+            assert_eq!(outcome, Outcome::NotANumber);
+        }
     }
 }

@@ -160,7 +160,9 @@ impl<'a> StaticSystem<'a> {
         let (outcome, iterations) = gradients.solve(&mut tangent, r, x, tolerance, MOST_CG);
         match outcome {
             Outcome::Converged => Ok(iterations),
-            Outcome::Slow => Err(StaticsError::Linear { iterations, at: *at }),
+            Outcome::Slow | Outcome::NotANumber => {
+                Err(StaticsError::Linear { iterations, at: *at })
+            }
             Outcome::Flat => {
                 let node = farthest(self.gradients.direction());
                 Err(StaticsError::Flat { node, body: self.body(node), position: self.at(node) })

@@ -221,7 +221,7 @@ fn stability(out: &mut String, summary: &Summary) {
     heading(out, "Stability");
     let remark = format!("{} of the limit", digits(Some(stability.factor), 3));
     row(out, "time step", &digits(Some(1e9 * summary.dt), 4), "ns", &remark);
-    row(out, "limit 2/omega_max", &digits(Some(1e9 * stability.dt_limit), 4), "ns", "");
+    row(out, "stability limit", &digits(Some(1e9 * stability.dt_limit), 4), "ns", "");
 }
 
 fn how_to_look(out: &mut String, summary: &Summary, folder: &Path) {

@@ -8,7 +8,7 @@ use output::layout::Pairing;
 use output::summary;
 use output::{Aliased, by_all_names, keyed, known};
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -46,6 +46,7 @@ pub struct CheckResult {
     /// The friction law.
     pub law: LawUsed,
     /// On which part of contact area and time the law's coefficient is known.
+    #[serde(deserialize_with = "by_either_name")]
     pub law_followed: LawFollowed,
     /// The scales of the measures by their names.
     pub scales: BTreeMap<String, ScaleUsed>,
@@ -396,6 +397,13 @@ pub struct LawFollowed {
     pub note: Option<String>,
 }
 
+/// A document of another version has one of the names alone.
+fn by_either_name<'de, D: Deserializer<'de>>(from: D) -> Result<LawFollowed, D::Error> {
+    let read = LawFollowed::deserialize(from)?;
+    let share = read.uncertain.or(read.blurred);
+    Ok(LawFollowed { uncertain: share, blurred: share, ..read })
+}
+
 /// A scale of the measures.
 #[derive(Clone, Debug, PartialEq, JsonSchema, Serialize, Deserialize)]
 pub struct ScaleUsed {
@@ -592,12 +600,13 @@ mod tests {
 
     #[test]
     fn a_measure_reads_by_its_alias_and_stands_in_the_document_by_both_names() {
-        let written = r#"{ "metrics": { "direction_let_slip": { "value": 2.5, "sides": { "bar": {
+        let written = r#"{ "law_followed": { "blurred": 0.5 }, "metrics": { "direction_let_slip": { "value": 2.5, "sides": { "bar": {
             "before": { "value": 2.5, "blur_rms": 2.0 } } } } } }"#;
         let result: CheckResult = serde_json::from_str(written).unwrap();
         let metric = &result.metrics[&Measure::DirectionSlipState];
         let rms = metric.detail(View::Bar, Pairing::Before, Detail::UncertaintyRms);
         assert_eq!((metric.value, rms), (Some(2.5), Some(2.0)));
+        assert_eq!(result.law_followed.uncertain, Some(0.5));
         let document = serde_json::to_value(&result).unwrap();
         let metrics = &document["metrics"];
         assert_eq!(metrics["direction_slip_state"], metrics["direction_let_slip"]);

@@ -166,7 +166,7 @@ fn log_facts(
 ) -> Result<(), NotWritten> {
     let stability = &facts.stability;
     log.say(&format!(
-        "step: {:.4e} s, {:.3} of the limit 2/omega_max (omega_max {:.4e} rad/s with contact, \
+        "step: {:.4e} s, {:.3} of the stability limit (omega_max {:.4e} rad/s with contact, \
          {:.4e} without); {} steps; kernels: {}",
         simulation.dt(),
         stability.factor,

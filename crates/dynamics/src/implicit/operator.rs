@@ -191,13 +191,14 @@ impl Operator {
         }
     }
 
-    /// `x . K x` of velocities of all nodes (W/s).
-    pub(crate) fn stiffness_energy(&mut self, system: &mut System, x: &[Padded]) -> f64 {
-        let mut x = x.to_vec();
+    /// `x . K x` of velocities of all nodes (W/s), which are used on the way and restored.
+    pub(crate) fn stiffness_energy(&mut self, system: &mut System, x: &mut Vec<Padded>) -> f64 {
         let small = small(x.largest().max(f64::MIN_POSITIVE));
         x.scale(small);
-        self.elastic_answer(system, &x);
-        -inner(&x, &self.answer) / (small * small)
+        self.elastic_answer(system, x);
+        let energy = -inner(x, &self.answer) / (small * small);
+        x.scale(1.0 / small);
+        energy
     }
 }
 

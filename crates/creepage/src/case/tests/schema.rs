@@ -62,6 +62,15 @@ fn every_key_of_the_schema_tells_unit_default_and_range() {
     }
 }
 
+#[test]
+fn of_two_keys_that_exclude_each_other_both_say_so() {
+    for key in KEYS.iter() {
+        let Some(other) = key.instead_of else { continue };
+        let rival = KEYS.iter().find(|rival| rival.path == other);
+        assert_eq!(rival.and_then(|rival| rival.instead_of), Some(key.path));
+    }
+}
+
 /// The ranges of the numbers of a key.
 fn ranges(form: Form) -> Vec<Range> {
     match form {

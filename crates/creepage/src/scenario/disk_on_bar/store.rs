@@ -35,6 +35,8 @@ use crate::scenario::model::Model;
 use crate::scenario::preload::PreloadReport;
 use output::NotWritten;
 
+/// The method of the preload: another number where the same case would be given other bits.
+const METHOD: u32 = 2;
 const MAGIC: &str = "creepage preload 1";
 const CHECKSUM: usize = 32;
 /// How often a run that waits for another's preload tries the lock.
@@ -51,7 +53,7 @@ struct Header {
 }
 
 /// SHA-256, in hexadecimal, of everything that a preload's bits depend on: the program's version,
-/// its kernels, and the keys that reach the preload.
+/// the method, its kernels, and the keys that reach the preload.
 pub(crate) fn key(case: &Case, kernels: &str) -> String {
     let penalty = &case.contact.penalty;
     let relaxation = case.preload.method == PreloadMethod::Relaxation;
@@ -59,7 +61,7 @@ pub(crate) fn key(case: &Case, kernels: &str) -> String {
     let steps = by_step(penalty.normal) || relaxation && by_step(penalty.tangential);
     // as a tuple, since text that nobody reads needs no names
     let basis = (
-        (env!("CARGO_PKG_VERSION"), kernels),
+        (env!("CARGO_PKG_VERSION"), METHOD, kernels),
         (&case.disk, &case.bar, &case.material, &case.mesh, &case.element),
         // the speed for the centrifugal force
         (case.load.normal, case.load.hub_mass, case.drive.speed),
