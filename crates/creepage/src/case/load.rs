@@ -39,19 +39,6 @@ impl<P: AsRef<Path>> From<P> for CaseSource {
     }
 }
 
-impl CaseSource {
-    /// Reads and checks the case.
-    ///
-    /// # Errors
-    /// What is wrong with the case, with the place where it is written.
-    pub fn read(&self) -> Result<Case, CaseError> {
-        match &self.text {
-            Some(text) => Case::from_text(text, &self.path, &self.sets),
-            None => Case::load(&self.path, &self.sets),
-        }
-    }
-}
-
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
     /// checks it and writes every default out.

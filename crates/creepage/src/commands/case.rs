@@ -11,7 +11,10 @@ impl CaseSource {
     /// # Errors
     /// What is wrong with the case, with the place where it is written.
     pub fn load(&self, listener: &mut dyn Listener) -> Result<Case, Error> {
-        let case = self.read()?;
+        let case = match &self.text {
+            Some(text) => Case::from_text(text, &self.path, &self.sets)?,
+            None => Case::load(&self.path, &self.sets)?,
+        };
         case.warnings().iter().for_each(|warning| listener.remark(&format!("warning: {warning}")));
         Ok(case)
     }
