@@ -92,7 +92,7 @@ pub fn reference(sets: &[String]) -> Result<Case, CaseError> {
 
 /// Measures the element kernel, a whole step, and the machine's bandwidth and arithmetic, on the reference disk and
 /// bar at 1 mm, with so many `threads` and these `kernels` (by default the machine's best). `case` is the
-/// [reference case](reference), or that with other keys.
+/// [reference case](reference()), or that with other keys.
 ///
 /// # Errors
 /// A mesh that cannot be made or that this machine has no memory for; kernels that it cannot
