@@ -247,20 +247,24 @@ fn the_steepness_of_falling_friction_is_that_of_a_node_alone_and_of_all_together
 }
 
 #[test]
-fn a_master_shows_the_gap_of_the_slaves_that_it_bears() {
+fn a_master_shows_the_gap_of_the_slaves_that_it_bears_and_their_slip_reversed() {
     let height = 1e-6;
     for rows in [Rows::NodeToFace, Rows::Mortar] {
         let mut bodies = Bodies::new(
             plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], height, 1e-3, false),
             plate([0.0, 0.0], [8e-3, 8e-3], [4, 4], 0.0, 1e-3, true),
         );
-        // twice as fast as it takes to close the gap in the step
+        // on a flat that is held, twice as fast as it takes to close the gap in the step
         let upper = bodies.trace.side(0).len();
-        bodies.free[..upper].fill(Padded::new([0.0, 0.0, -2.0 * height / DT]));
-        let mut contact = bodies.contact(0, rows, Coulomb { mu: 0.3 });
+        bodies.free[..upper].fill(Padded::new([3.0, 0.0, -2.0 * height / DT]));
+        bodies.inverse_mass[upper..].fill(0.0);
+        let mut contact = bodies.contact(0, rows, Coulomb { mu: 0.0 });
         assert_eq!(bodies.explicit(&mut contact).sums.closed, 36);
-        for side in 0..2 {
+        for (side, slip) in [(0, 3.0), (1, -3.0)] {
             let table = bodies.table(&contact, side);
+            for found in &table.slip_velocity {
+                assert!((found[0] - slip).abs() < 1e-12, "{rows:?} {side}: {found:?}");
+            }
             for (pressure, gap) in table.pressure.iter().zip(&table.gap) {
                 assert!(
                     *pressure > 0.0 && (gap - height).abs() < 1e-15,
