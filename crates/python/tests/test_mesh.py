@@ -185,7 +185,7 @@ def with_blocks(path):
 
 
 @pytest.mark.parametrize(
-    "name, write", [("m.med", with_families), ("m.XDMF", with_arrays), ("m.vtk", with_arrays), ("m.exo", with_blocks)]
+    "name, write", [("m.med", with_families), ("m.XDMF", with_arrays), ("m.exo", with_blocks)]
 )
 def test_a_case_reads_a_file_of_meshio_to_the_bit_as_one_that_it_reads_itself(tmp_path, name, write):
     sets = write(tmp_path / name) or {}

@@ -145,15 +145,16 @@ fn what_the_python_package_says_of_a_mesh_is_shown_and_what_it_writes_is_read() 
         let mut program = Command::new(env!("CARGO_BIN_EXE_creepage"));
         program.args(["mesh", &path, "--json"]).env("PATH", path_of_programs).output().unwrap()
     };
-    for (script, words) in [
-        ("echo cut short >&2; echo >&2; exit 2", ["m.med: cut short", "write the file anew"]),
-        ("echo No module named it >&2; exit 1", ["says: No module named it", "pip install"]),
-        ("kill -9 $$", ["says: nothing (signal: 9", "pip install"]),
-        ("echo no grid", ["m.med: the file is no", "write the file anew"]),
+    for (script, code, words) in [
+        ("echo cut short >&2; echo >&2; exit 2", 2, ["m.med: cut short", "write the file anew"]),
+        ("echo No module named it >&2; exit 1", 2, ["says: No module named it", "pip install"]),
+        ("kill -9 $$", 2, ["says: nothing (signal: 9", "pip install"]),
+        ("exit 130", 130, ["interrupted while", "no results yet"]),
+        ("echo no grid", 2, ["m.med: the file is no", "write the file anew"]),
     ] {
         let output = said_by(script);
         let said = String::from_utf8_lossy(&output.stdout).into_owned();
-        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert_eq!(output.status.code(), Some(code), "{said}");
         words.iter().for_each(|word| assert!(said.contains(word), "{word:?} is not in:\n{said}"));
     }
     let output = said_by(&format!("cat '{}'", meshes().join("small.vtu").display()));

@@ -1,10 +1,9 @@
 """``python -m creepage._through_meshio FILE``: a mesh of any format that meshio reads, as VTU on standard output.
 
-Creepage starts it for ``mesh.file``. It ends with 2 where meshio cannot read the file, and with 1 where a package is
-missing; why is the last line on standard error.
+Creepage starts it for ``mesh.file``. It ends with 2 where meshio cannot read the file, with 1 where a package is missing,
+and with 130 after Ctrl-C; why is the last line on standard error.
 """
 
-import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -16,8 +15,6 @@ from ._optional import optional
 
 def main(path) -> int:
     """Writes the mesh of a file to standard output and returns the exit code."""
-    # Ctrl-C is for the program that reads what is written here
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         meshio = optional("meshio", "mesh")
         mesh = _mesh.read(meshio, path)
@@ -33,6 +30,8 @@ def main(path) -> int:
     except CaseError as refused:
         print(str(refused).removeprefix(f"{path}: "), file=sys.stderr)
         return 2
+    except KeyboardInterrupt:
+        return 130
     return 0
 
 

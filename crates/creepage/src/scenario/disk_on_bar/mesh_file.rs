@@ -11,7 +11,7 @@ use output::layout::{CONSTANT, MESH_SETS};
 use output::{GridFile, OutputError, hexadecimal};
 use sha2::{Digest, Sha256};
 
-use super::through_meshio;
+use super::through_meshio::{self, MeshioError};
 use crate::scenario::error::{MeshFileError, ScenarioError};
 use crate::scenario::remedy::Remedy;
 
@@ -35,8 +35,10 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
     let foreign = match format {
         MeshFormat::Foreign(format) => format.read(&bytes),
         MeshFormat::ThroughMeshio => {
-            let vtu = through_meshio::as_vtu(&path)
-                .map_err(|error| refused(error.to_string(), &error.remedy()))?;
+            let vtu = through_meshio::as_vtu(&path).map_err(|error| match error {
+                MeshioError::Interrupted => ScenarioError::Interrupted,
+                error => refused(error.to_string(), error.remedy()),
+            })?;
             // a place in it is none of the user's file
             Format::Vtu.read(&vtu).map_err(|fault| ImportError { place: None, ..fault })
         }

@@ -5,10 +5,12 @@ use std::path::Path;
 use std::process::Stdio;
 
 use crate::python;
-use crate::scenario::remedy::Remedy;
 
 /// The exit code of the package for a file that meshio cannot read.
 const UNREADABLE: i32 = 2;
+
+/// Its exit code after Ctrl-C, which a terminal sends to both programs.
+const INTERRUPTED: i32 = 130;
 
 /// Why a file is not read through meshio.
 #[derive(Debug, thiserror::Error)]
@@ -27,6 +29,9 @@ pub enum MeshioError {
         /// The last line of what it said.
         said: String,
     },
+    /// It was asked to stop.
+    #[error("it was asked to stop")]
+    Interrupted,
     /// The file is none of its format.
     #[error("{said}")]
     Unreadable {
@@ -52,13 +57,15 @@ pub fn as_vtu(path: &Path) -> Result<Vec<u8>, MeshioError> {
         .rfind(|line| !line.trim().is_empty())
         .map_or_else(|| format!("nothing ({})", read.status), output::files::printable);
     Err(match read.status.code() {
+        Some(INTERRUPTED) => MeshioError::Interrupted,
         Some(UNREADABLE) => MeshioError::Unreadable { said },
         _ => MeshioError::Package { said },
     })
 }
 
-impl Remedy for MeshioError {
-    fn remedy(&self) -> String {
+impl MeshioError {
+    /// What to do.
+    pub fn remedy(&self) -> &'static str {
         match self {
             Self::NoPackage | Self::NotRun(_) | Self::Package { .. } => {
                 "pip install 'creepage[mesh]' installs both; .msh, .inp and .vtu files are read without them"
@@ -66,7 +73,7 @@ impl Remedy for MeshioError {
             Self::Unreadable { .. } => {
                 "write the file anew with the program that it comes from, or as a .msh, .inp or .vtu file"
             }
+            Self::Interrupted => "there are no results yet",
         }
-        .into()
     }
 }
