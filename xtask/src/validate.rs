@@ -12,7 +12,7 @@ use crate::step::{
 use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
 
 /// The steps, cheapest first.
-pub const STEPS: [(&str, Step); 19] = [
+pub const STEPS: [(&str, Step); 20] = [
     ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
     ("links", |root| without(&markdown::broken(root))),
     ("spelling", sources::spelling),
@@ -23,6 +23,7 @@ pub const STEPS: [(&str, Step); 19] = [
     ("tests", tests),
     ("schema", schema),
     ("smoke run", smoke_run),
+    ("libhdf5", libhdf5),
     ("tables of the documents", results::step),
     ("report page", report_page),
     ("sweep through Dask", |root| with_program(root, "check_dask.py")),
@@ -101,6 +102,23 @@ fn smoke_run(root: &Path) -> Ended {
     run.args(["run", "cases/smoke.toml", "--force", "--out"]).arg(&folder).current_dir(root);
     done(&mut run)?;
     check_with_python(root, "check_run.py", &[&folder])
+}
+
+/// Has HDF5's own library write the files of the smoke run again, and compares all that is in them. Machines without
+/// that library skip this.
+fn libhdf5(root: &Path) -> Ended {
+    let found = Command::new("pkg-config").args(["--exists", "hdf5"]).status();
+    if !found.is_ok_and(|status| status.success()) {
+        eprintln!(
+            "warning: pkg-config finds no hdf5 (Debian: libhdf5-dev); the comparison with it was skipped"
+        );
+        return Ok(Outcome::Skipped);
+    }
+    let run = target(root).join("smoke").display().to_string();
+    // the other features of the whole workspace, so that no package of others is compiled twice
+    let test =
+        "test --release --workspace --features creepage-output/libhdf5 --test libhdf5 -- --ignored";
+    cargo(root, &test.split(' ').collect::<Vec<_>>(), &[("CREEPAGE_RUN", &run)])
 }
 
 /// Has a browser render the report of the smoke run. Machines without one skip this: that pages are
