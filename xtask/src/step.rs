@@ -79,7 +79,9 @@ pub fn python(root: &Path) -> Result<PathBuf, String> {
     done(Command::new(system).args(["-m", "venv", "--clear"]).arg(&venv)).map_err(|problem| {
         format!("{problem} (on Debian and Ubuntu: apt-get install python3-venv)")
     })?;
-    let pip = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"];
+    // most of what is installed is never run
+    let pip =
+        ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile", "-r"];
     done(Command::new(&python).args(pip).arg(&requirements))?;
     fs::write(&installed, wanted).map_err(|error| error.to_string())?;
     Ok(python)

@@ -1,5 +1,6 @@
 //! `cargo xtask validate`: what the continuous integration runs and what a contributor runs.
 
+use std::env;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, ExitCode};
@@ -76,15 +77,63 @@ fn documentation(root: &Path) -> Ended {
     cargo(root, &doc, &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
-/// The README's test command.
+/// The README's test command. In the continuous integration a third of the verification problems and of the long tests,
+/// another one after each change.
 fn tests(root: &Path) -> Ended {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
+    let third = sample(root);
+    let problems = third.map(|third| format!("{third}/3"));
     let mut vars = vec![("CREEPAGE_PYTHON", &*python)];
-    // in the continuous integration a third of the verification problems, another one after each change
-    let sample = sample(root).map(|third| format!("{third}/3"));
-    vars.extend(sample.as_deref().map(|third| ("CREEPAGE_SAMPLE", third)));
-    cargo(root, &["test", "--release", "--workspace"], &vars)
+    vars.extend(problems.as_deref().map(|third| ("CREEPAGE_SAMPLE", third)));
+    let left_out = third.map(|third| left_out(root, third)).transpose()?.unwrap_or_default();
+    let mut test = vec!["test", "--release", "--workspace", "--"];
+    test.extend(left_out.iter().flat_map(|name| ["--skip", &**name]));
+    cargo(root, &test, &vars)
+}
+
+/// Modules of tests that take from seconds to a minute each: whole runs, planted errors, kills.
+const LONG: [&str; 13] = [
+    "checkpoint::",
+    "exact::",
+    "friction_laws::",
+    "half_model::",
+    "half_space::",
+    "own_mu::",
+    "plane_strain::",
+    "planted::",
+    "preload::",
+    "resume::",
+    "sideways::",
+    "sweep::",
+    "window::",
+];
+
+/// The long tests that are not of this third.
+fn left_out(root: &Path, third: usize) -> Result<Vec<String>, String> {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let list = [
+        "test",
+        "--release",
+        "--workspace",
+        "--lib",
+        "--bins",
+        "--tests",
+        "--quiet",
+        "--",
+        "--list",
+    ];
+    let listed = output(Command::new(cargo).args(list).current_dir(root))?;
+    let names = listed.lines().filter_map(|line| line.strip_suffix(": test"));
+    let of = |module: &&str| names.clone().any(|name| name.starts_with(module));
+    if let Some(gone) = LONG.iter().find(|module| !of(module)) {
+        return Err(format!("no test begins with `{gone}`"));
+    }
+    let is_long = |name: &&str| {
+        LONG.iter().any(|module| name.starts_with(module)) && !name.contains("::tests::")
+    };
+    let long = names.clone().filter(is_long).enumerate();
+    Ok(long.filter(|(n, _)| n % 3 != third).map(|(_, name)| name.to_owned()).collect())
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::step::{Ended, done, missing, python, search, target};
+use crate::step::{Ended, done, files, missing, python, sample, search, target};
 
 /// Options of maturin that link for every Linux with glibc 2.17 or newer.
 const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
@@ -37,7 +37,15 @@ pub fn tests(root: &Path) -> Ended {
     package.args(pytest).current_dir(root.join("crates/python"));
     // `creepage.verify` starts another program
     done(package.env("PATH", search([target(root).join("release")])?))?;
-    done(Command::new(&python).args(pytest).args(["--nbmake", "notebooks"]).current_dir(root))
+    let notebooks = root.join("notebooks");
+    // in the continuous integration one of them in turn
+    let all: Vec<_> =
+        files(&notebooks).filter(|file| file.extension() == Some("ipynb".as_ref())).collect();
+    let chosen = match sample(root) {
+        Some(third) => all.into_iter().skip(third).step_by(3).collect(),
+        None => all,
+    };
+    done(Command::new(&python).args(pytest).arg("--nbmake").args(chosen).current_dir(root))
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.
