@@ -9,7 +9,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Reference coordinates (m).
-    pub nodes: Vec<[f64; 3]>,
+    pub nodes: Vec<Vector3<f64>>,
     /// Node indices of each hexahedron in `VTK_HEXAHEDRON` order.
     pub hexes: Vec<[u32; 8]>,
     /// The bodies; their ranges cover `nodes` and `hexes` in order, without gaps or overlaps.
