@@ -22,7 +22,7 @@ impl Mesh {
     /// Where a node is in the reference configuration (m).
     #[inline]
     pub fn at(&self, node: u32) -> Vector3<f64> {
-        self.nodes[node as usize].into()
+        self.nodes[node as usize]
     }
 }
 

@@ -212,7 +212,7 @@ impl Space {
     }
 
     /// Euclidean norm (N) of the reduced residual on the free coordinates.
-    pub(crate) fn norm(&mut self, reduced: &[Padded]) -> f64 {
+    pub(crate) fn residual_norm(&mut self, reduced: &[Padded]) -> f64 {
         self.partial
             .par_iter_mut()
             .zip(reduced.par_chunks(CHUNK).zip(self.diagonal.par_chunks(CHUNK)))

@@ -26,7 +26,7 @@ fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
     let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
     let angle = 0.7;
     let nodes = trace.gather(&mesh.nodes).into_iter();
-    let position: Vec<Padded> = nodes.map(|x| turned(x.into(), angle).into()).collect();
+    let position: Vec<Padded> = nodes.map(|x| turned(x, angle).into()).collect();
     let positions = Positions(&position);
     let mut worst_facet = 0.0_f64;
     for i in 0..200 {
