@@ -68,7 +68,7 @@ impl Rolling {
             Err(error) => panic!("{error}"),
         };
         let n = mesh.nodes.len();
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
         let mut rolling = Self {
             fields: TraceFields::new(contact.trace(), &reference, &vec![1e5; n]),
             contact,

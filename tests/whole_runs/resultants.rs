@@ -50,7 +50,7 @@ impl Rig {
         let law = Box::new(Coulomb { mu: 0.3 });
         let contact = PenaltyContact::new(&mesh, surfaces, &settings, None, law).unwrap();
         let n = mesh.nodes.len();
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
         Self {
             fields: TraceFields::new(contact.trace(), &reference, &vec![1e4; n]),
             contact,
@@ -66,7 +66,7 @@ impl Rig {
         let (s, c) = angle.sin_cos();
         let mut velocity = vec![Padded::ZERO; self.reference.len()];
         for n in self.mesh.bodies[0].nodes.clone() {
-            let [px, _, pz] = self.mesh.nodes[n];
+            let [px, _, pz] = self.mesh.nodes[n].into();
             let z = pz - RADIUS;
             let u = [c * px + s * z + x - px, y, c * z - s * px - DEPTH - z];
             for i in 0..3 {

@@ -8,6 +8,7 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Bar, Disk, FineZone, Grading};
+use nalgebra::Vector3;
 use solid::{Element, Material, element_stiffness};
 use statics::Supports;
 use std::time::Instant;
@@ -30,7 +31,7 @@ fn main() {
     let mesh = mesh::join(&[mesh::disk(&disk, &zone).unwrap(), mesh::bar(&bar, &zone).unwrap()]);
     let steel = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
     let element =
-        |x: &[[f64; 3]; 8], m: &Material| element_stiffness(x, m, Element { hourglass: 0.05 });
+        |x: &[Vector3<f64>; 8], m: &Material| element_stiffness(x, m, Element { hourglass: 0.05 });
     let held = ["bottom", "hub"]
         .iter()
         .zip([1, 0])

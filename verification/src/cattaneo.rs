@@ -67,7 +67,7 @@ fn contacts(blocks: &HalfSpaces<'_>, influence: &Influence, apex: f64) -> Result
         for (k, &i) in contact.contact().iter().enumerate() {
             let [fx, fy] = contact.force()[k];
             let left = (contact.bound()[k] - libm::hypot(fx, fy)).max(0.0);
-            let [x, y, _] = influence.points()[i].at;
+            let [x, y, _] = influence.points()[i].at.into();
             reserve += left;
             moment += left * ((x - apex).powi(2) + y * y);
         }

@@ -16,6 +16,7 @@ use crate::row::Row;
 use contact::{ContactStep, Normals, PenaltyContact, PenaltySettings, Stiffness, TraceFields};
 use friction::Coulomb;
 use mesh::{Disk, FineZone, Grading, Mesh, Padded, Surface};
+use nalgebra::{UnitVector3, Vector3};
 use std::f64::consts::TAU;
 
 const SETTINGS: PenaltySettings = PenaltySettings {
@@ -36,7 +37,7 @@ pub(crate) fn run(_: Size) -> Outcome {
 /// contact and the rotation vector of the step (rad).
 pub(crate) fn run_with(
     curvature: bool,
-    between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
+    between: impl Fn(&mut PenaltyContact, Vector3<f64>) -> Result<(), Cause>,
 ) -> Outcome {
     Ok(vec![
         Row::new(
@@ -77,7 +78,7 @@ impl Rig {
         let surfaces = surfaces.map(|s| (s, contact_material(&STEEL)));
         let law = Box::new(Coulomb { mu: MU });
         let contact = PenaltyContact::new(mesh, surfaces, settings, None, law)?;
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
         let still = vec![0.0; reference.len()];
         let fields = TraceFields::new(contact.trace(), &reference, &still);
         Ok(Self { contact, at: reference.clone(), reference, fields })
@@ -85,20 +86,20 @@ impl Rig {
 
     /// Moves every node to `place` of its index and reference position (m), and returns the force (N) on the first
     /// body.
-    fn step(&mut self, place: impl Fn(usize, [f64; 3]) -> [f64; 3]) -> [f64; 3] {
+    fn step(&mut self, place: impl Fn(usize, Vector3<f64>) -> Vector3<f64>) -> Vector3<f64> {
         let n = self.reference.len();
         let (mut displacement, mut velocity) = (vec![Padded::ZERO; n], vec![Padded::ZERO; n]);
         for i in 0..n {
-            let (from, x) = (self.reference[i].xyz(), self.at[i].xyz());
+            let (from, x) = (self.reference[i].vector(), self.at[i].vector());
             let to = place(i, from);
-            displacement[i] = Padded::new([0, 1, 2].map(|k| to[k] - from[k]));
-            velocity[i] = Padded::new([0, 1, 2].map(|k| (to[k] - x[k]) / DT));
-            self.at[i] = Padded::new(to);
+            displacement[i] = Padded::from(to - from);
+            velocity[i] = Padded::from((to - x) / DT);
+            self.at[i] = Padded::from(to);
         }
         self.fields.gather_positions(&displacement);
         self.fields.gather_velocities(&velocity);
         let step = self.fields.step(0.0, DT);
-        self.contact.apply(&step.motion, step.force).force[0].into()
+        self.contact.apply(&step.motion, step.force).force[0]
     }
 }
 
@@ -118,7 +119,7 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
     let disk = mesh::disk(&Disk { radius, hub_radius: 0.40, width: 8e-3, crown: None }, &zone)?;
     // of another pitch, so that its nodes meet all parts of a face
     let mut plane = mesh::block([21, 3, 1], [0.04, 6e-3, size]);
-    plane.nodes.iter_mut().for_each(|x| *x = [x[0] - 0.02, x[1] - 3e-3, x[2] - size]);
+    plane.nodes.iter_mut().for_each(|x| *x -= Vector3::new(0.02, 3e-3, size));
     let mesh = mesh::join(&[disk, plane]);
     let [wheel, rest] = [&mesh.bodies[0], &mesh.bodies[1]];
     let surfaces = [&wheel.surfaces["zone"], &rest.surfaces["z+"]];
@@ -130,7 +131,8 @@ fn gaps(curvature: bool) -> Result<f64, Cause> {
         let (s, c) = libm::sincos(along / radius);
         rig.step(|i, x| {
             let z = x[2] - radius;
-            let rolled = [c * x[0] + s * z + along, x[1], radius - depth - s * x[0] + c * z];
+            let rolled =
+                Vector3::new(c * x.x + s * z + along, x.y, radius - depth - s * x.x + c * z);
             if wheel.nodes.contains(&i) { rolled } else { x }
         });
         rig.contact.nodal(&mut table);
@@ -151,7 +153,7 @@ const STEPS: u32 = 240;
 
 /// Largest difference of the contact force from the turned one, over the friction force, in a turn through 2 pi.
 fn turned_friction(
-    between: impl Fn(&mut PenaltyContact, [f64; 3]) -> Result<(), Cause>,
+    between: impl Fn(&mut PenaltyContact, Vector3<f64>) -> Result<(), Cause>,
 ) -> Result<f64, Cause> {
     let upper = mesh::block([2; 3], [EDGE; 3]);
     let mut lower = upper.clone();
@@ -160,32 +162,29 @@ fn turned_friction(
     let surfaces = [&mesh.bodies[0].surfaces["z-"], &mesh.bodies[1].surfaces["z+"]];
     let mut rig = Rig::new(&mesh, surfaces, &SETTINGS)?;
     let top = mesh.bodies[0].nodes.clone();
-    let placed = |i: usize, x: [f64; 3], share: f64| {
+    let placed = |i: usize, x: Vector3<f64>, share: f64| {
         if !top.contains(&i) {
             return x;
         }
-        [x[0] + 0.8 * share * SHIFT, x[1] + 0.6 * share * SHIFT, x[2] - PRESSED]
+        x + Vector3::new(0.8 * share * SHIFT, 0.6 * share * SHIFT, -PRESSED)
     };
     rig.step(|i, x| placed(i, x, 0.0));
     let start = rig.step(|i, x| placed(i, x, 1.0));
     let angle = TAU / f64::from(STEPS);
-    let axis = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let axis = UnitVector3::new_unchecked(Vector3::new(1.0, 2.0, 2.0) / 3.0);
     let mut worst = 0.0_f64;
     for step in 1..=STEPS {
-        between(&mut rig.contact, axis.map(|n| n * angle))?;
+        between(&mut rig.contact, *axis * angle)?;
         let turn = angle * f64::from(step);
         let force = rig.step(|i, x| turned(axis, turn, placed(i, x, 1.0)));
         let expected = turned(axis, turn, start);
-        let off = (0..3).map(|k| (force[k] - expected[k]).powi(2)).sum::<f64>().sqrt();
-        worst = worst.max(off / libm::hypot(start[0], start[1]));
+        worst = worst.max((force - expected).norm() / libm::hypot(start.x, start.y));
     }
     Ok(worst)
 }
 
 /// A vector turned about a unit axis by an angle (Rodrigues).
-fn turned(n: [f64; 3], angle: f64, x: [f64; 3]) -> [f64; 3] {
+fn turned(n: UnitVector3<f64>, angle: f64, x: Vector3<f64>) -> Vector3<f64> {
     let (s, c) = libm::sincos(angle);
-    let along: f64 = (0..3).map(|k| n[k] * x[k]).sum();
-    let cross = [n[1] * x[2] - n[2] * x[1], n[2] * x[0] - n[0] * x[2], n[0] * x[1] - n[1] * x[0]];
-    [0, 1, 2].map(|k| c * x[k] + s * cross[k] + (1.0 - c) * along * n[k])
+    c * x + s * n.cross(&x) + (1.0 - c) * n.dot(&x) * *n
 }

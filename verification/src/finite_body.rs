@@ -22,6 +22,7 @@ use crate::reference::{
 };
 use crate::row::Row;
 use mesh::{Bar, Disk, FineZone, Grading, Mesh};
+use nalgebra::Vector3;
 use statics::Supports;
 
 const MU: f64 = 0.5;
@@ -167,9 +168,9 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let bar = mesh::bar(&shape, &zone)?;
     let top = &bar.bodies[0].surfaces["zone"];
     let smooth = top.smooth.ok_or("the bar has no crown")?;
-    let within = |x: [f64; 3]| x[0].abs() < reach[0] && x[1].abs() < reach[1];
+    let within = |x: Vector3<f64>| x[0].abs() < reach[0] && x[1].abs() < reach[1];
     let tread = &disk.bodies[0].surfaces["zone"];
-    let points = Point::on_surface(&disk, tread, within, |x| -smooth.offset(x.into()));
+    let points = Point::on_surface(&disk, tread, within, |x| -smooth.offset(x));
     let nodes: Vec<u32> = points.iter().map(|p| p.node).collect();
     let condensed = |mesh: &Mesh, held: &str, nodes: &[u32]| {
         let held = mesh.bodies[0].node_sets[held].clone();

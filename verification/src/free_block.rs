@@ -13,6 +13,7 @@ use crate::problem::{Outcome, Size};
 use crate::row::Row;
 use dynamics::{Setup, Simulation};
 use mesh::Padded;
+use nalgebra::Vector3;
 use solid::{Level, Material, Solid, SolidError, Viscosity, Volumetric};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
@@ -52,7 +53,7 @@ fn corner(n: usize, reweigh: impl Fn(&mut [f64])) -> Result<f64, SolidError> {
     let solid =
         Solid::new(&mesh, &[STEEL], Volumetric::Full, Viscosity::default(), Level::detect())?;
     let dt = 1e-7;
-    let start = |x: &[f64; 3]| Padded::new([0.0, 0.0, -SCALE * x[2] / size]);
+    let start = |x: &Vector3<f64>| Padded::new([0.0, 0.0, -SCALE * x[2] / size]);
     let mut setup = Setup {
         velocity: mesh.nodes.iter().map(start).collect(),
         dt,

@@ -24,6 +24,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use dynamics::{Fixed, Setup, Simulation};
 use mesh::{Bar, FineZone, Grading, Mesh};
+use nalgebra::Vector3;
 
 /// Size of the elements at the surface (m); the problem has no other length.
 const FINE: f64 = 1e-3;
@@ -181,7 +182,7 @@ fn setup(mesh: &Mesh, wave: &Wave) -> Result<Setup, Cause> {
     for side in 0..2 {
         let ends = mesh.nodes.iter().map(|x| x[side]);
         let (from, to) = ends.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-        let at_side = |x: &[f64; 3]| (x[side] - from).min(to - x[side]) < 1e-6 * FINE;
+        let at_side = |x: &Vector3<f64>| (x[side] - from).min(to - x[side]) < 1e-6 * FINE;
         let nodes = (0..mesh.nodes.len()).filter(|&n| at_side(&mesh.nodes[n]));
         let held = nodes.map(|n| Fixed { node: n as u32, axes: wave.held[side] });
         setup.system.fixed.extend(held);

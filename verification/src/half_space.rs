@@ -9,11 +9,12 @@ use crate::problem::{Cause, Size};
 use crate::reference::{
     Block, Influence, Lateral, Press, Pressed, Rigid, Rolling, RollingInParts, ellipsoid, press,
 };
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use solid::{Element, Material, element_stiffness};
 
 /// Stiffness of an element, with the hourglass coefficient of rolling runs.
-pub(crate) fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {
+pub(crate) fn element(x: &[Vector3<f64>; 8], m: &Material) -> [[f64; 24]; 24] {
     element_stiffness(x, m, Element { hourglass: 0.05 })
 }
 

@@ -43,6 +43,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use dynamics::Simulation;
 use mesh::quad_corner_areas;
+use nalgebra::Vector3;
 
 /// Half the edge of the loaded patch (m): the unit of all lengths.
 const PATCH: f64 = 1e-3;
@@ -289,18 +290,18 @@ fn traces(n: usize, times: &Times) -> Result<[Trace; 2], Cause> {
     setup.system.load.ramp = times.ramp;
     let pressure = LOAD / (4.0 * PATCH * PATCH);
     for face in &mesh.bodies[0].surfaces["z-"].faces {
-        let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
-        let inside = |x: &[f64; 3]| x[0].max(x[1]) < PATCH + 0.5 * h;
+        let corners = face.nodes.map(|n| mesh.at(n));
+        let inside = |x: &Vector3<f64>| x.x.max(x.y) < PATCH + 0.5 * h;
         if corners.iter().all(inside) {
             for (&node, area) in face.nodes.iter().zip(quad_corner_areas(&corners)) {
-                setup.system.load.forces.push((node, [0.0, 0.0, pressure * area]));
+                setup.system.load.forces.push((node, pressure * area * Vector3::z()));
             }
         }
     }
     let receiver = |r: f64| {
         let distance = |i: &usize| {
-            let [x, y, z] = mesh.nodes[*i];
-            (x - r).abs() + y + z
+            let x = mesh.nodes[*i];
+            (x.x - r).abs() + x.y + x.z
         };
         (0..mesh.nodes.len()).min_by(|i, j| distance(i).total_cmp(&distance(j))).unwrap_or(0)
     };

@@ -20,14 +20,14 @@ use crate::body::{ONE_POINT, STEEL};
 use crate::problem::{Outcome, Size};
 use crate::row::Row;
 use mesh::{Mesh, Padded, seven_hex_patch};
+use nalgebra::{Matrix3, Vector3};
 use solid::{Element, Level, Solid, Viscosity};
-
-type Matrix = [[f64; 3]; 3];
 
 const ROUND_OFF: (f64, &str) = (1e-12, "round-off of fewer than 1000 products of order one");
 
 /// Displacement gradient H, not symmetric, so that it turns the element as well.
-const GRADIENT: Matrix = [[0.12, 0.05, -0.08], [-0.03, -0.10, 0.06], [0.07, -0.02, 0.15]];
+const GRADIENT: Matrix3<f64> =
+    Matrix3::new(0.12, 0.05, -0.08, -0.03, -0.10, 0.06, 0.07, -0.02, 0.15);
 
 pub(crate) fn patch(_: Size) -> Outcome {
     patch_with(ONE_POINT)
@@ -45,8 +45,8 @@ pub(crate) fn patch_with(element: Element) -> Outcome {
 
     let source = "St. Venant-Kirchhoff law in F = I + H";
     let (second_piola, energy) = saint_venant_kirchhoff(&GRADIENT);
-    let f = deformation(&GRADIENT);
-    let first_piola = multiply(&f, &second_piola);
+    let f = GRADIENT + Matrix3::identity();
+    let first_piola = f * second_piola;
     let exact = cauchy(&f, &first_piola);
     let mut rows = Vec::new();
     for (k, name) in ["xx", "yy", "zz", "xy", "yz", "xz"].into_iter().enumerate() {
@@ -65,17 +65,14 @@ pub(crate) fn patch_with(element: Element) -> Outcome {
         "equilibrium of a uniform stress",
     ));
     // the face x = 1 has unit area and normal; the force on its nodes balances P N A
-    let mut resultant = [0.0; 3];
-    for (x, f) in mesh.nodes.iter().zip(&force).filter(|(x, _)| x[0] == 1.0) {
+    let mut resultant = Vector3::zeros();
+    for (x, f) in mesh.nodes.iter().zip(&force).filter(|(x, _)| x.x == 1.0) {
         // each corner belongs to three faces: count the share of this one by its own traction
-        let share = corner_share(&first_piola, *x);
-        for i in 0..3 {
-            resultant[i] -= f.0[i] - share[i];
-        }
+        resultant -= f.vector() - corner_share(&first_piola, *x);
     }
     for (i, name) in ["x", "y", "z"].into_iter().enumerate() {
         let quantity = format!("force on the face x = 1 along {name} (N)");
-        let values = [first_piola[i][0], resultant[i]];
+        let values = [first_piola[(i, 0)], resultant[i]];
         rows.push(Row::new(quantity, values, STEEL.young, ROUND_OFF, source));
     }
     let stored = [energy, sums.internal];
@@ -126,12 +123,12 @@ fn hourglass_energy(element: Element) -> Result<f64, solid::SolidError> {
     let amplitude: f64 = 1e-3;
     let exact =
         2.0 * ONE_POINT.hourglass * (STEEL.lame() + 2.0 * STEEL.shear()) * amplitude.powi(2);
-    let modes: [fn([f64; 3]) -> f64; 4] =
+    let modes: [fn(Vector3<f64>) -> f64; 4] =
         [|s| s[1] * s[2], |s| s[0] * s[2], |s| s[0] * s[1], |s| s[0] * s[1] * s[2]];
     let mut worst = 1.0_f64;
     for mode in modes {
         for axis in 0..3 {
-            let moved = |x: &[f64; 3]| {
+            let moved = |x: &Vector3<f64>| {
                 let mut u = [0.0; 3];
                 u[axis] = amplitude * mode(x.map(|x| 2.0 * x - 1.0));
                 Padded::new(u)
@@ -152,74 +149,35 @@ fn steel(mesh: &Mesh, element: Element) -> Result<Solid, solid::SolidError> {
     Solid::new(mesh, &[STEEL], element, Viscosity::default(), Level::detect())
 }
 
-fn affine(mesh: &Mesh, h: Matrix) -> Vec<Padded> {
-    let u = |x: &[f64; 3]| [0, 1, 2].map(|i| (0..3).map(|j| h[i][j] * x[j]).sum());
-    mesh.nodes.iter().map(|x| Padded::new(u(x))).collect()
+fn affine(mesh: &Mesh, h: Matrix3<f64>) -> Vec<Padded> {
+    mesh.nodes.iter().map(|x| Padded::from(h * x)).collect()
 }
 
 /// R - I for a turn about (1, 2, 2)/3 (Rodrigues).
-fn turn(angle: f64) -> Matrix {
-    let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+fn turn(angle: f64) -> Matrix3<f64> {
+    let n = Vector3::new(1.0, 2.0, 2.0) / 3.0;
     let (s, c) = libm::sincos(angle);
-    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
-    let mut h = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            let identity = if i == j { 1.0 } else { 0.0 };
-            h[i][j] = (c - 1.0) * identity + s * cross[i][j] + (1.0 - c) * n[i] * n[j];
-        }
-    }
-    h
-}
-
-fn deformation(h: &Matrix) -> Matrix {
-    let mut f = *h;
-    (0..3).for_each(|i| f[i][i] += 1.0);
-    f
-}
-
-fn multiply(a: &Matrix, b: &Matrix) -> Matrix {
-    let mut c = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            c[i][j] = (0..3).map(|k| a[i][k] * b[k][j]).sum();
-        }
-    }
-    c
-}
-
-fn transposed(a: &Matrix) -> Matrix {
-    [0, 1, 2].map(|i| [0, 1, 2].map(|j| a[j][i]))
+    (c - 1.0) * Matrix3::identity() + s * n.cross_matrix() + (1.0 - c) * n * n.transpose()
 }
 
 /// S = lambda tr(E) I + 2G E with E = (F^T F - I)/2, and the energy 1/2 S:E of unit volume.
-fn saint_venant_kirchhoff(h: &Matrix) -> (Matrix, f64) {
-    let f = deformation(h);
-    let mut e = multiply(&transposed(&f), &f);
-    for i in 0..3 {
-        for j in 0..3 {
-            e[i][j] = 0.5 * (e[i][j] - if i == j { 1.0 } else { 0.0 });
-        }
-    }
-    let trace = e[0][0] + e[1][1] + e[2][2];
-    let mut s = e.map(|row| row.map(|c| 2.0 * STEEL.shear() * c));
-    (0..3).for_each(|i| s[i][i] += STEEL.lame() * trace);
-    let energy = (0..9).map(|k| 0.5 * s[k / 3][k % 3] * e[k / 3][k % 3]).sum();
-    (s, energy)
+fn saint_venant_kirchhoff(h: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
+    let f = h + Matrix3::identity();
+    let e = 0.5 * (f.transpose() * f - Matrix3::identity());
+    let s = STEEL.lame() * e.trace() * Matrix3::identity() + 2.0 * STEEL.shear() * e;
+    (s, 0.5 * s.dot(&e))
 }
 
 /// sigma = P F^T/det F, as xx yy zz xy yz xz.
-fn cauchy(f: &Matrix, first_piola: &Matrix) -> [f64; 6] {
-    let minor = |i: usize, j: usize| f[1][i] * f[2][j] - f[1][j] * f[2][i];
-    let det = f[0][0] * minor(1, 2) - f[0][1] * minor(0, 2) + f[0][2] * minor(0, 1);
-    let s = multiply(first_piola, &transposed(f));
-    [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|(i, j)| s[i][j] / det)
+fn cauchy(f: &Matrix3<f64>, first_piola: &Matrix3<f64>) -> [f64; 6] {
+    let s = first_piola * f.transpose() / f.determinant();
+    [s.m11, s.m22, s.m33, s.m12, s.m23, s.m13]
 }
 
 /// Internal force on a corner of the cube from the tractions of the two faces other than x = 1,
 /// a quarter of each face's resultant.
-fn corner_share(first_piola: &Matrix, corner: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|i| (1..3).map(|j| -0.25 * first_piola[i][j] * (2.0 * corner[j] - 1.0)).sum())
+fn corner_share(first_piola: &Matrix3<f64>, corner: Vector3<f64>) -> Vector3<f64> {
+    first_piola * Vector3::new(0.0, -0.25 * (2.0 * corner.y - 1.0), -0.25 * (2.0 * corner.z - 1.0))
 }
 
 fn largest(force: &[Padded]) -> f64 {

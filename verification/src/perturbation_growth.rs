@@ -27,6 +27,7 @@ use dynamics::{Fixed, Setup, Simulation};
 use faer::c64 as Complex;
 use friction::{Exponential, FrictionLaw, Memory, NodeConditions, NodeFriction, Remembering};
 use mesh::Padded;
+use nalgebra::Vector3;
 use solid::{Level, Solid, Viscosity, Volumetric};
 use std::f64::consts::PI;
 
@@ -218,7 +219,7 @@ impl Mode {
         let before = (-0.5 * setup.dt * self.growth).exp();
         for (body, side) in [(0, 1.0), (1, -1.0)] {
             for n in mesh.bodies[body].nodes.clone() {
-                let [x, _, z] = mesh.nodes[n];
+                let [x, _, z] = mesh.nodes[n].into();
                 let inside = z.abs() < 0.5 * h;
                 setup.system.fixed.push(Fixed { node: n as u32, axes: [true, false, !inside] });
                 let down = if inside { 0.0 } else { -side * approach };
@@ -242,10 +243,14 @@ impl Mode {
         // couple at the interface; without them the pressure would differ from one side to the other.
         for hex in &mesh.hexes {
             for &node in hex {
-                let [_, y, z] = mesh.nodes[node as usize];
+                let [_, y, z] = mesh.at(node).into();
                 if z.abs() < 0.5 * h {
                     let out = if y > 0.0 { 1.0 } else { -1.0 };
-                    setup.system.load.forces.push((node, [0.0, 0.0, 0.25 * out * stress * h * h]));
+                    setup
+                        .system
+                        .load
+                        .forces
+                        .push((node, 0.25 * out * stress * h * h * Vector3::z()));
                 }
             }
         }

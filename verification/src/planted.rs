@@ -14,6 +14,7 @@ use crate::{
 use contact::{ContactRestart, PenaltyContact};
 use friction::{Implicit, Lagged};
 use mesh::Mesh;
+use nalgebra::Vector3;
 use solid::Element;
 
 /// The document with the table of faults.
@@ -116,7 +117,7 @@ fn friction_of_the_step_before_is_caught_by_the_law_of_the_same_step() {
 
 #[test]
 fn gaps_of_the_polygon_are_caught_by_the_rolling_disk() {
-    let nothing = |_: &mut PenaltyContact, _: [f64; 3]| Ok(());
+    let nothing = |_: &mut PenaltyContact, _: Vector3<f64>| Ok(());
     catches(
         "gap without curvature",
         "contact-turn",
@@ -140,7 +141,7 @@ fn half_the_mass_of_a_surface_node_is_caught_by_the_free_block() {
 #[test]
 fn friction_that_does_not_turn_with_the_face_is_caught_by_a_turn() {
     /// Turns what the springs hold back by the part of the turn along the normal: it stays as it is in space.
-    fn back(contact: &mut PenaltyContact, turn: [f64; 3]) -> Result<(), crate::Cause> {
+    fn back(contact: &mut PenaltyContact, turn: Vector3<f64>) -> Result<(), crate::Cause> {
         let mut state = toml::Value::try_from(contact.snapshot()).unwrap();
         let reals = |value: &toml::Value| -> Vec<f64> { value.clone().try_into().unwrap() };
         let passes = state["points"]["Penalty"].as_array_mut().unwrap();

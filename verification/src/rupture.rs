@@ -45,6 +45,7 @@ use contact::{ContactTables, ExactContact, ExactSettings, NodalContact};
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{NodeConditions, NodeFriction, SlipWeakening};
 use mesh::{Mesh, quad_corner_areas};
+use nalgebra::Vector3;
 use solid::{Elements, Material, Volumetric};
 
 const C_P: f64 = 6000.0;
@@ -196,18 +197,17 @@ fn beside_fault(mesh: &Mesh) -> Vec<bool> {
 }
 
 /// The initial stress as forces on the nodes of both sides: upwards along +x and down on the upper one.
-fn initial_stress(mesh: &Mesh, surfaces: [&mesh::Surface; 2]) -> Vec<(u32, [f64; 3])> {
-    let mut force = std::collections::BTreeMap::<u32, [f64; 3]>::new();
+fn initial_stress(mesh: &Mesh, surfaces: [&mesh::Surface; 2]) -> Vec<(u32, Vector3<f64>)> {
+    let mut force = std::collections::BTreeMap::<u32, Vector3<f64>>::new();
     for (surface, side) in surfaces.into_iter().zip([1.0, -1.0]) {
         for face in &surface.faces {
-            let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
-            let middle = [0, 1].map(|i| corners.iter().map(|c| 0.25 * c[i]).sum::<f64>());
-            let inside = middle.iter().all(|x| *x < SQUARE);
+            let corners = face.nodes.map(|n| mesh.at(n));
+            let middle = corners.iter().map(|c| 0.25 * c).sum::<Vector3<f64>>();
+            let inside = middle.x < SQUARE && middle.y < SQUARE;
             let shear = SCALE * if inside { SHEAR_OF_SQUARE } else { SHEAR };
             for (&node, area) in face.nodes.iter().zip(quad_corner_areas(&corners)) {
-                let f = force.entry(node).or_default();
-                f[0] += side * shear * area;
-                f[2] -= side * SCALE * PRESSURE * area;
+                let traction = Vector3::new(shear, 0.0, -SCALE * PRESSURE);
+                *force.entry(node).or_default() += side * traction * area;
             }
         }
     }
@@ -290,7 +290,7 @@ impl Monitor {
         let mut rows = vec![usize::MAX; counts[0] * counts[1]];
         let mut barrier = Vec::new();
         for (row, &node) in table.nodes.iter().enumerate() {
-            let [x, y, _] = mesh.nodes[node as usize];
+            let [x, y, _] = mesh.at(node).into();
             if on_fault([x, y]) {
                 let [i, j] = [x, y].map(|x| (x / h).round() as usize);
                 rows[i + counts[0] * j] = row;

@@ -31,6 +31,7 @@ use contact::{ExactContact, ExactSettings, Normals, PenaltyContact, PenaltySetti
 use dynamics::{Fixed, Setup, Simulation};
 use friction::{Exponential, FrictionLaw, Implicit, Lagged, NodeFriction};
 use mesh::Padded;
+use nalgebra::Vector3;
 use solid::{Element, Level, Solid, Viscosity};
 
 /// Pressure and speeds of the model over those at 1 GPa.
@@ -251,7 +252,7 @@ pub(crate) fn columns(cells: usize, interface: Interface, waves: Waves) -> Resul
     let element = Element { hourglass: 0.05 };
     setup.system.solid = Solid::new(&mesh, &[SHEARED; 2], element, viscosity, Level::detect())?;
 
-    let at_interface = |x: [f64; 3]| x[2].abs() < 0.5 * h;
+    let at_interface = |x: Vector3<f64>| x.z.abs() < 0.5 * h;
     let approach = PRESSURE * h / SHEARED.young;
     let (c, shear) = (SHEARED.c_s(), SHEARED.shear());
     for (body, side) in [(0, 1.0), (1, -1.0)] {

@@ -41,6 +41,7 @@ use contact::{
 use dynamics::{Load, Setup, Simulation};
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
+use nalgebra::Vector3;
 use solid::{Element, Level, Material, Solid, Viscosity};
 
 pub(crate) const MU: f64 = 0.3;
@@ -98,7 +99,7 @@ pub(crate) fn stop_implicit(size: Size) -> Outcome {
 
 /// The displacements along x of the nodes of a block that has slid for `time` (s) at 1.5 m/s at first (m).
 pub(crate) fn slid(size: Size, method: Method, time: f64) -> Result<Vec<f64>, Cause> {
-    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], 1.5, MU)?;
+    let mut block = Block::new(size, method, weight(0.0), 1.5, MU)?;
     let steps = (time / block.simulation.dt()).round() as usize;
     for _ in 0..steps {
         block.simulation.step(false);
@@ -110,7 +111,7 @@ pub(crate) fn slid(size: Size, method: Method, time: f64) -> Result<Vec<f64>, Ca
 /// The time step of the explicit block (s).
 pub(crate) fn step(size: Size) -> Result<f64, Cause> {
     let method = Method::Exact(Rows::NodeToFace);
-    Ok(Block::new(size, method, [0.0, 0.0, -GRAVITY], 1.5, MU)?.simulation.dt())
+    Ok(Block::new(size, method, weight(0.0), 1.5, MU)?.simulation.dt())
 }
 
 pub(crate) fn stop_mortar(size: Size) -> Outcome {
@@ -136,7 +137,7 @@ fn stops_with(size: Size, method: Method, mu: f64) -> Outcome {
             (sliding, (2.0 * elastic_displacement(method) / distance, FROM))
         }
     };
-    let mut block = Block::new(size, method, [0.0, 0.0, -GRAVITY], v0, mu)?;
+    let mut block = Block::new(size, method, weight(0.0), v0, mu)?;
     let mut earlier = 0.0;
     if method == Method::Penalty {
         // the first step of penalty contact adds the heat of the step that ended at t = 0
@@ -231,8 +232,8 @@ fn inclines(size: Size, method: Method) -> Outcome {
     Ok(rows)
 }
 
-fn weight(angle: f64) -> [f64; 3] {
-    [GRAVITY * libm::sin(angle), 0.0, -GRAVITY * libm::cos(angle)]
+fn weight(angle: f64) -> Vector3<f64> {
+    GRAVITY * Vector3::new(libm::sin(angle), 0.0, -libm::cos(angle))
 }
 
 /// d = mu p/k_t + mu rho g H^2/(2G) (m).
@@ -261,7 +262,7 @@ impl Block {
     fn new(
         size: Size,
         method: Method,
-        acceleration: [f64; 3],
+        acceleration: Vector3<f64>,
         speed: f64,
         mu: f64,
     ) -> Result<Self, Cause> {
@@ -276,10 +277,10 @@ impl Block {
         let cells_along = |length: f64| (length / (pitch * h)).round() as usize;
         let plane_cells = [cells_along(PLANE), cells_along(BLOCK[1]), 1];
         let mut plane = mesh::block(plane_cells, [PLANE, BLOCK[1], h]);
-        plane.nodes.iter_mut().for_each(|x| *x = [x[0] - BLOCK[0], x[1], x[2] - h]);
+        plane.nodes.iter_mut().for_each(|x| *x -= Vector3::new(BLOCK[0], 0.0, h));
         let mesh = mesh::join(&[block, plane]);
 
-        let down = [0.0, 0.0, acceleration[2]];
+        let down = Vector3::new(0.0, 0.0, acceleration.z);
         let (mut settling, contact) = setup(&mesh, down, 1.0, mu)?;
         settling.system.contact = Some(match method {
             Method::Penalty => contact.into(),
@@ -396,7 +397,7 @@ fn surfaces(mesh: &Mesh) -> [(&Surface, BodyMaterial); 2] {
 /// Block and held plane at rest, and their contact with normal contact damping as a share of critical.
 fn setup(
     mesh: &Mesh,
-    acceleration: [f64; 3],
+    acceleration: Vector3<f64>,
     damping: f64,
     mu: f64,
 ) -> Result<(Setup, PenaltyContact), Cause> {

@@ -25,6 +25,7 @@ use crate::problem::{Outcome, Size};
 use crate::row::Row;
 use dynamics::{Setup, Simulation};
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use solid::{Material, SolidError};
 
 /// Length of the bar (m).
@@ -99,7 +100,7 @@ pub(crate) fn bar_setup(
 /// u_y = -`contraction` du/dx (y - y_0): Poisson's ratio for free sides, zero for held ones.
 pub(crate) fn set_off_pulse(
     setup: &mut Setup,
-    nodes: &[[f64; 3]],
+    nodes: &[Vector3<f64>],
     c: f64,
     [centre, width]: [f64; 2],
     contraction: f64,
@@ -153,7 +154,7 @@ fn pulse_speed(n: usize, confined: bool, c: f64) -> Result<f64, SolidError> {
 
 /// Nodes of the section at x.
 fn layer(mesh: &Mesh, x: f64) -> Vec<usize> {
-    let near = |p: &[f64; 3]| (p[0] - x).abs() < 1e-9 * LENGTH;
+    let near = |p: &Vector3<f64>| (p[0] - x).abs() < 1e-9 * LENGTH;
     (0..mesh.nodes.len()).filter(|&i| near(&mesh.nodes[i])).collect()
 }
 

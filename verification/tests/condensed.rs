@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use mesh::{Mesh, Padded, graded_block, graded_line};
+use nalgebra::Vector3;
 use solid::{Element, Level, Material, Solid, Viscosity, element_stiffness};
 use statics::{Axis, Supports, Tied};
 use verification::reference::{
@@ -12,7 +13,7 @@ use verification::reference::{
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 const ELEMENT: Element = Element { hourglass: 0.05 };
 
-fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {
+fn element(x: &[Vector3<f64>; 8], m: &Material) -> [[f64; 24]; 24] {
     element_stiffness(x, m, ELEMENT)
 }
 
@@ -187,10 +188,10 @@ fn two_equal_blocks_have_the_influence_of_one_on_its_mirror_image() {
         let supports = Supports { held, ..Supports::default() };
         SurfaceCompliance::new(mesh, &[STEEL], &element, &supports, &nodes).unwrap()
     };
-    let within = |[x, y, _]: [f64; 3]| x.abs() < 3.1 * h && y.abs() < 2.1 * h;
+    let within = |at: Vector3<f64>| at.x.abs() < 3.1 * h && at.y.abs() < 2.1 * h;
     let points = |mesh: &Mesh, face: &str| {
         let surface = &mesh.bodies[0].surfaces[face];
-        Point::on_surface(mesh, surface, within, |[x, y, _]| gap(x, y))
+        Point::on_surface(mesh, surface, within, |at| gap(at.x, at.y))
     };
     let [above, below] = [points(&upper, "z-"), points(&lower, "z+")];
     let pair = Influence::between(
@@ -203,7 +204,7 @@ fn two_equal_blocks_have_the_influence_of_one_on_its_mirror_image() {
     .unwrap();
     let scale = mirrored.normal(0, 0);
     for i in 0..above.len() {
-        assert_eq!(above[i].at[..2], below[i].at[..2]);
+        assert_eq!(above[i].at.xy(), below[i].at.xy());
         for j in 0..above.len() {
             assert!((pair.normal(i, j) - mirrored.normal(i, j)).abs() < 1e-10 * scale);
             let (p, m) = (pair.shear(i, j), mirrored.shear(i, j));

@@ -63,7 +63,7 @@ fn the_coefficient_of_a_particle_is_that_of_its_slip_since_it_came_into_contact(
         let contact = rolling.contact();
         let upstream = |i: usize| {
             let ahead = |j: &usize| {
-                let ([x, y, _], [u, v, _]) = (at(i), at(*j));
+                let [[x, y, _], [u, v, _]] = [at(i), at(*j)].map(Into::into);
                 (u - x - rolling.pitch()).abs() + (v - y).abs() < 1e-6
             };
             contact.iter().position(ahead)

@@ -50,10 +50,9 @@ impl NodeFriction for Polishing {
 }
 
 /// A cube over `low`..`low + size` (m): its nodes, with the lower four first.
-fn cube(low: [f64; 3], size: f64) -> Vec<[f64; 3]> {
+fn cube(low: [f64; 3], size: f64) -> Vec<Vector3<f64>> {
     let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
-    let at =
-        |z: f64| corners.map(|[x, y]| [low[0] + size * x, low[1] + size * y, low[2] + size * z]);
+    let at = |z: f64| corners.map(|[x, y]| Vector3::from(low) + size * Vector3::new(x, y, z));
     [at(0.0), at(1.0)].concat()
 }
 
@@ -77,7 +76,7 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
     let mut contact =
         ExactContact::new(&mesh, [(&under, steel), (&top, steel)], &settings, Box::new(law))?;
 
-    let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+    let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
     let inverse_mass: Vec<f64> = (0..16).map(|i| if i < 8 { 1.0 / MASS } else { 0.0 }).collect();
     let mut fields = TraceFields::new(contact.trace(), &reference, &inverse_mass);
     let mut displacement = vec![Padded::ZERO; 16];

@@ -431,7 +431,7 @@ mod tests {
         mesh.symmetric = symmetric;
         mesh.nodes.iter_mut().for_each(|x| x[2] -= 0.2 * x[1]);
         let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
-        let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
+        let nodes = trace.nodes().iter().map(|&n| Padded::from(mesh.at(n))).collect();
         (surface, nodes)
     }
 
@@ -441,8 +441,7 @@ mod tests {
         let (mut mesh, top) = plate([0.0, 0.0], [2.0, 1.0], [2, 1], 0.0, 0.5, true);
         mesh.nodes.iter_mut().for_each(|x| x[0] = (x[0] - 1.0) * (0.9 + 1.1 * x[1]));
         let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
-        let nodes: Vec<Padded> =
-            trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
+        let nodes: Vec<Padded> = trace.nodes().iter().map(|&n| Padded::from(mesh.at(n))).collect();
         let positions = Positions(&nodes);
         let height = mesh.nodes.iter().fold(f64::MIN, |top, x| top.max(x[2]));
         for (i, j) in (0..40).flat_map(|i| (0..20).map(move |j| (i, j))) {
@@ -487,7 +486,7 @@ mod tests {
             let mut top = top.clone();
             top.faces.iter_mut().for_each(|face| face.nodes.rotate_left(turn));
             let (trace, surface) = ContactSurface::alone(&mesh, &top, STEEL).unwrap();
-            let nodes = trace.nodes().iter().map(|&n| Padded::new(mesh.nodes[n as usize]));
+            let nodes = trace.nodes().iter().map(|&n| Padded::from(mesh.at(n)));
             let nodes: Vec<Padded> = nodes.collect();
             let node = Vector3::new(1.3, 0.0, 0.01);
             let found = project(&surface, &Positions(&nodes), false, node, 1, 0.0, 0.0);

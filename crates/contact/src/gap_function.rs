@@ -150,7 +150,7 @@ mod tests {
         let (upper, first) = plate([0.0, 0.0], [8e-3, 8e-3], [5, 5], height, 1e-3, false);
         let (lower, second) = plate([0.0, 0.0], [8e-3, 8e-3], [4, 4], 0.0, 1e-3, true);
         let (mesh, second) = together(upper, lower, second);
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
         let rest = vec![Padded::ZERO; reference.len()];
         for rows in [Rows::NodeToFace, Rows::Mortar] {
             for (slave, surface, away) in [(0, &first, -1.0), (1, &second, 1.0)] {

@@ -416,7 +416,7 @@ mod tests {
         fn new(upper: (Mesh, Surface), lower: (Mesh, Surface)) -> Self {
             let count = upper.0.nodes.len();
             let (mesh, second) = together(upper.0, lower.0, lower.1);
-            let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+            let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
             let surfaces = [(&upper.1, STEEL), (&second, STEEL)];
             let (trace, sides) = ContactSurface::both(&mesh, surfaces).unwrap();
             Self {

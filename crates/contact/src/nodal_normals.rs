@@ -114,7 +114,7 @@ mod tests {
         let (radius, half_angle) = (0.46, 0.02);
         let (mesh, faces) = tread(radius, half_angle, 8e-3, [10, 4], 2e-3);
         let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
-        let nodes: Vec<Padded> = trace.gather(&mesh.nodes).into_iter().map(Padded::new).collect();
+        let nodes: Vec<Padded> = trace.gather(&mesh.nodes).into_iter().map(Padded::from).collect();
         let mut worst = [0.0_f64; 2];
         for (worst, curvature) in worst.iter_mut().zip([true, false]) {
             let mut normals = NodalNormals::new(&surface, curvature);

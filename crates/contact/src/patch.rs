@@ -1,6 +1,6 @@
 //! Measures of the contact patch from nodal values.
 
-use nalgebra::{SMatrix, SVector, Vector2};
+use nalgebra::{SMatrix, SVector, Vector2, Vector3};
 use std::f64::consts::PI;
 
 /// A node is in contact where its pressure exceeds this share of Hertz's peak pressure, or of the largest nodal
@@ -62,7 +62,7 @@ pub struct PatchAreas {
 ///
 /// `None` where the nodes do not determine that: fewer than five, or a distribution that does not fall
 /// off on all sides (of a rectangle: before and behind).
-pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<PatchFit> {
+pub fn fit(shape: PatchShape, points: &[Vector3<f64>], pressure: &[f64]) -> Option<PatchFit> {
     let peak = pressure.iter().copied().fold(0.0, f64::max);
     let used = || points.iter().zip(pressure).filter(move |&(_, &p)| p > FITTED * peak);
     let count = used().count();
@@ -70,7 +70,7 @@ pub fn fit(shape: PatchShape, points: &[[f64; 3]], pressure: &[f64]) -> Option<P
         return None;
     }
     // Coordinates about the mean in units of the extent keep the normal equations well scaled.
-    let places = || used().map(|(x, _)| Vector2::new(x[0], x[1]));
+    let places = || used().map(|(x, _)| x.xy());
     let mean = places().sum::<Vector2<f64>>() / count as f64;
     let least = Vector2::repeat(f64::MIN_POSITIVE);
     let extent = places().fold(least, |most, x| most.sup(&(x - mean).abs()));
@@ -176,7 +176,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
 
-    fn hertz(h: f64) -> (Vec<[f64; 3]>, Vec<f64>) {
+    fn hertz(h: f64) -> (Vec<Vector3<f64>>, Vec<f64>) {
         let (a, b, p0, xc, yc) = (7.162e-3, 5.387e-3, 1.2376e9, 1.3e-3, -0.4e-3);
         let mut points = Vec::new();
         let mut pressure = Vec::new();
@@ -184,7 +184,7 @@ mod tests {
             for j in -12..=12 {
                 let (x, y) = (f64::from(i) * h, f64::from(j) * h);
                 let q = 1.0 - ((x - xc) / a).powi(2) - ((y - yc) / b).powi(2);
-                points.push([x, y, 0.3]);
+                points.push(Vector3::new(x, y, 0.3));
                 pressure.push(p0 * q.max(0.0).sqrt());
             }
         }
@@ -214,8 +214,9 @@ mod tests {
             d if d < 1.5e-3 => 1.0 / 6.0,
             _ => 0.0,
         };
-        let spread = |x: &[f64; 3]| {
-            let from = |(y, p): (&[f64; 3], &f64)| p * weight(x[0] - y[0]) * weight(x[1] - y[1]);
+        let spread = |x: &Vector3<f64>| {
+            let from =
+                |(y, p): (&Vector3<f64>, &f64)| p * weight(x[0] - y[0]) * weight(x[1] - y[1]);
             points.iter().zip(&pressure).map(from).sum::<f64>()
         };
         let spread: Vec<f64> = points.iter().map(spread).collect();
@@ -233,7 +234,7 @@ mod tests {
         for i in -10..=10 {
             for y in [-0.25e-3, 0.25e-3] {
                 let x = f64::from(i) * 1e-3;
-                points.push([x, y, 0.0]);
+                points.push(Vector3::new(x, y, 0.0));
                 pressure.push(p0 * (1.0 - ((x - xc) / a).powi(2)).max(0.0).sqrt());
             }
         }
@@ -261,7 +262,7 @@ mod tests {
         for i in -10..=10 {
             for j in -30_i32..=30 {
                 let (x, y) = (f64::from(i) * 1e-3, f64::from(j) * 1.04e-3);
-                points.push([x, y, 0.0]);
+                points.push(Vector3::new(x, y, 0.0));
                 // where the narrower body ends its edge presses half as much again
                 let edge = if j.abs() == 20 { 1.5 } else { 1.0 };
                 let inside = if j.abs() <= 20 { edge * 350e6 } else { 0.0 };
@@ -281,7 +282,7 @@ mod tests {
     #[test]
     fn fit_refuses_what_is_no_ellipse() {
         assert_eq!(fit(PatchShape::Ellipse, &[], &[]), None);
-        let row: Vec<[f64; 3]> = (0..9).map(|i| [f64::from(i), 0.0, 0.0]).collect();
+        let row: Vec<Vector3<f64>> = (0..9).map(|i| f64::from(i) * Vector3::x()).collect();
         assert_eq!(fit(PatchShape::Ellipse, &row, &[1.0; 9]), None);
         let (points, _) = hertz(1e-3);
         let bowl: Vec<f64> = points.iter().map(|x| 1.0 + x[0] * x[0] + x[1] * x[1]).collect();

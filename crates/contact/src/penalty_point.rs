@@ -158,17 +158,7 @@ impl Pass<'_> {
             shape(projection.xi.clamp(-1.0, 1.0), projection.eta.clamp(-1.0, 1.0));
         let penetrates = projection.gap < 0.0;
         if !penetrates {
-            if before.is_closed() {
-                point.part();
-            } else if let Some(motion) = motion {
-                let velocity = relative_velocity(
-                    motion.velocity,
-                    node,
-                    face.nodes,
-                    &point.enforcement.weights,
-                );
-                point.sleep = sleep(projection.gap, velocity.norm(), self.margin, motion.dt);
-            }
+            self.separate(point, before.is_closed(), node, face, motion);
             return;
         }
         // equilibrium knows no history: the time loop starts from its displacements alone
@@ -195,32 +185,47 @@ impl Pass<'_> {
                 + point.normal_force * (*point.normal - *of_face);
             point.enforcement.damping_work -= 0.5 * along.dot(moved);
         }
-        match motion {
-            Some(motion) => {
-                point.state = State::Stick;
-                match held {
-                    Some(Held { moved, frame, .. }) => {
-                        point.enforcement.trial = Trial {
-                            held: true,
-                            delta: tangential(moved, point.normal),
-                            start: before.transported(frame, point.normal),
-                            tangent: projection.point.tangent,
-                        };
-                    }
-                    None => self.begin(point, x, node, face, motion),
-                }
+        point.state = State::Stick;
+        match (motion, held) {
+            (Some(_), Some(Held { moved, frame, .. })) => {
+                point.enforcement.trial = Trial {
+                    held: true,
+                    delta: tangential(moved, point.normal),
+                    start: before.transported(frame, point.normal),
+                    tangent: projection.point.tangent,
+                };
             }
-            None => {
-                point.state = State::Stick;
-                point.friction = Vector3::zeros();
-                point.framed = Vector2::zeros();
-                point.mu = self.law.mu_static();
-                // the time loop goes on from here
-                point.memory = self.law.begin(&point.place(self.slave, x, 0.0));
-                point.slip_velocity = Vector3::zeros();
-                point.slip = Vector3::zeros();
-            }
+            (Some(motion), None) => self.begin(point, x, node, face, motion),
+            (None, _) => self.rest(point, x),
         }
+    }
+
+    /// Without penetration a closed point opens, and an open one sleeps as long as it cannot close.
+    fn separate(
+        &self,
+        point: &mut PenaltyPoint,
+        was_closed: bool,
+        node: u32,
+        face: &MasterFace,
+        motion: Option<&Motion<'_>>,
+    ) {
+        if was_closed {
+            point.part();
+        } else if let Some(motion) = motion {
+            let velocity =
+                relative_velocity(motion.velocity, node, face.nodes, &point.enforcement.weights);
+            point.sleep = sleep(point.gap, velocity.norm(), self.margin, motion.dt);
+        }
+    }
+
+    /// Friction in equilibrium: the spring is unloaded, and the time loop goes on from here.
+    fn rest(&self, point: &mut PenaltyPoint, x: Vector3<f64>) {
+        point.friction = Vector3::zeros();
+        point.framed = Vector2::zeros();
+        point.mu = self.law.mu_static();
+        point.memory = self.law.begin(&point.place(self.slave, x, 0.0));
+        point.slip_velocity = Vector3::zeros();
+        point.slip = Vector3::zeros();
     }
 
     /// Spring and damper. The damper's work in the step is the trapezoidal

@@ -52,7 +52,7 @@ impl PenaltyContact {
             [0.0, 0.0, 0.0, 1.0],
         ];
         let nodes = self.trace.nodes().iter();
-        let reference: Vec<Padded> = nodes.map(|&n| Padded::new(mesh.nodes[n as usize])).collect();
+        let reference: Vec<Padded> = nodes.map(|&n| Padded::from(mesh.at(n))).collect();
         let positions = Positions(&reference);
         // Per node: largest own stiffness, areal stiffness of slaves above, their largest area.
         let mut own = [0, 1].map(|s: usize| vec![0.0_f64; self.sides[s].len()]);

@@ -19,7 +19,7 @@ pub(crate) fn plate(
     mapped(cells, up, None, |s, t, inside| {
         let x = low[0] + s * (high[0] - low[0]);
         let y = low[1] + t * (high[1] - low[1]);
-        [x, y, if up { z - depth * inside } else { z + depth * inside }]
+        Vector3::new(x, y, if up { z - depth * inside } else { z + depth * inside })
     })
 }
 
@@ -34,7 +34,7 @@ pub(crate) fn tread(
     let smooth = SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown: None };
     mapped(cells, false, Some(smooth), |s, t, inside| {
         let (angle, r) = ((2.0 * s - 1.0) * half_angle, radius - depth * inside);
-        [r * libm::sin(angle), (t - 0.5) * width, radius - r * libm::cos(angle)]
+        Vector3::new(r * libm::sin(angle), (t - 0.5) * width, radius - r * libm::cos(angle))
     })
 }
 
@@ -42,7 +42,7 @@ fn mapped(
     cells: [usize; 2],
     up: bool,
     smooth: Option<SmoothSurface>,
-    place: impl Fn(f64, f64, f64) -> [f64; 3],
+    place: impl Fn(f64, f64, f64) -> Vector3<f64>,
 ) -> (Mesh, Surface) {
     let [nx, ny] = cells;
     let mut mesh = Mesh::default();

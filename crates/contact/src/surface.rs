@@ -125,8 +125,8 @@ impl ContactSurface {
             if face.nodes.iter().chain(hex).any(|&n| n as usize >= mesh.nodes.len()) {
                 return Err(outside);
             }
-            let corners = face.nodes.map(|n| mesh.nodes[n as usize]);
-            let volume = mesh::hex_volume(&hex.map(|n| mesh.nodes[n as usize]));
+            let corners = face.nodes.map(|n| mesh.at(n));
+            let volume = mesh::hex_volume(&hex.map(|n| mesh.at(n)));
             let shares = mesh::quad_corner_areas(&corners);
             let area: f64 = shares.iter().sum();
             let sound = area > 0.0 && volume > 0.0 && (area + volume).is_finite();

@@ -41,7 +41,6 @@ mod scales;
 pub(crate) mod slip_zone;
 pub(crate) mod statistics;
 pub(crate) mod surface;
-pub(crate) mod vector;
 pub(crate) mod welch;
 pub(crate) mod window;
 

@@ -16,9 +16,9 @@ use crate::chart::Figure;
 use crate::check::PostError;
 use crate::check::basis::{may_be_run, read_toml};
 use crate::check::surface::body_name;
-use crate::check::vector::{Vec3, axpy};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use nalgebra::Vector3;
 use output::layout::file;
 use quantity::{Drawable, Quantity};
 use rigid::Rigid;
@@ -82,7 +82,7 @@ struct Mesh {
 struct Snapshot {
     time: f64,
     /// The middle of the patch; without contact the lowest place of the disk (m).
-    centre: Vec3,
+    centre: Vector3<f64>,
     /// As [`Scene::meshes`].
     meshes: Vec<State>,
 }
@@ -207,7 +207,7 @@ impl Scene {
             let what = "it holds no field that can be shown".into();
             return Err(PostError::Lacks { path: shown[0].source.path.clone(), what }.into());
         };
-        let centre = frames.last().map_or([0.0; 3], |frame| frame.centre);
+        let centre = frames.last().map_or(Vector3::zeros(), |frame| frame.centre);
         let time = frames.last().map_or(0.0, |frame| frame.time);
         let still = still::still(&shown[0], &last[0], field, still::View { centre, span, time });
         Ok(Self {
@@ -254,7 +254,7 @@ impl ShownFile {
     }
 
     /// Middle of the patch, weighted by pressure, and its largest extent (m); `None` where nothing presses.
-    fn patch(&self, record: &Record) -> Option<(Vec3, f64)> {
+    fn patch(&self, record: &Record) -> Option<(Vector3<f64>, f64)> {
         let part = self.parts.last()?;
         let pressure = record.values.get(Quantity::Pressure.name())?;
         let total: f64 = part.rows.iter().map(|&row| pressure[row]).sum();
@@ -264,12 +264,13 @@ impl ShownFile {
         }
         // a hundredth: the edge of the patch may be ragged
         let pressed = || part.rows.iter().filter(|&&row| pressure[row] > 0.01 * peak);
-        let middle = |sum, &row: &usize| axpy(sum, pressure[row] / total, record.placed[row]);
+        let middle =
+            |sum: Vector3<f64>, &row: &usize| sum + pressure[row] / total * record.placed[row];
         let extent = |axis: usize| {
             let [low, high] = source::ends(pressed().map(|&row| record.placed[row][axis]));
             high - low
         };
-        Some((part.rows.iter().fold([0.0; 3], middle), extent(0).max(extent(1))))
+        Some((part.rows.iter().fold(Vector3::zeros(), middle), extent(0).max(extent(1))))
     }
 
     fn fields(&self, frames: &[Snapshot]) -> impl Iterator<Item = Field> {
@@ -289,7 +290,7 @@ impl ShownFile {
     fn meshes(&self) -> impl Iterator<Item = Mesh> {
         self.parts.iter().map(|part| {
             let number = |row: &u32| part.rows.binary_search(&(*row as usize)).unwrap_or(0) as u32;
-            let points = part.rows.iter().flat_map(|&row| self.source.points[row]);
+            let points = part.rows.iter().flat_map(|&row| &self.source.points[row]).copied();
             Mesh {
                 name: body_name(part.body).to_owned(),
                 group: self.of,
@@ -302,19 +303,22 @@ impl ShownFile {
     fn states(&self, record: &Record) -> impl Iterator<Item = State> {
         self.parts.iter().map(move |part| {
             let rows = &part.rows;
-            let before: Vec<Vec3> = rows.iter().map(|&row| self.source.points[row]).collect();
-            let rigid = |row: &usize| axpy(record.placed[*row], -1.0, record.deformation[*row]);
-            let after: Vec<Vec3> = rows.iter().map(rigid).collect();
+            let before: Vec<Vector3<f64>> =
+                rows.iter().map(|&row| self.source.points[row]).collect();
+            let rigid = |row: &usize| record.placed[*row] - record.deformation[*row];
+            let after: Vec<Vector3<f64>> = rows.iter().map(rigid).collect();
             let values = record
                 .values
                 .iter()
                 .map(|(name, values)| (*name, Packed::of(rows.iter().map(|&row| values[row]))));
             let shear = record.shear.as_ref().map(|shear| {
-                Packed::of(rows.iter().flat_map(|&row| shear[row].map(|traction| 1e-6 * traction)))
+                Packed::of(rows.iter().flat_map(|&row| &shear[row]).map(|traction| 1e-6 * traction))
             });
             State {
                 rigid: Rigid::fit(&before, &after).map(Rigid::rows).unwrap_or_default(),
-                deformation: Packed::of(rows.iter().flat_map(|&row| record.deformation[row])),
+                deformation: Packed::of(
+                    rows.iter().flat_map(|&row| &record.deformation[row]).copied(),
+                ),
                 values: values.collect(),
                 shear_vector: shear,
             }

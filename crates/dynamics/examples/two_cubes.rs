@@ -10,6 +10,7 @@ use contact::{BodyMaterial, ExactContact, ExactSettings};
 use dynamics::{Load, Setup, Simulation, System};
 use friction::Coulomb;
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use solid::{Element, Level, Material, Solid, Viscosity};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
@@ -47,7 +48,7 @@ fn main() {
     let system = System {
         contact: Some(contact.into()),
         held: mesh.bodies[1].node_sets["z-"].clone(),
-        load: Load { forces: top.iter().map(|&n| (n, [0.0, 0.0, share])).collect(), ramp: RAMP },
+        load: Load { forces: top.iter().map(|&n| (n, share * Vector3::z())).collect(), ramp: RAMP },
         ..System::free(solid, mass)
     };
     let nodes = mesh.nodes.len();

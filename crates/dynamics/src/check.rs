@@ -239,7 +239,7 @@ impl Simulation {
             place: Location {
                 node,
                 body: if self.system.upper.contains(&node) { upper } else { lower },
-                position: self.system.solid.reference()[node].xyz(),
+                position: self.system.solid.reference()[node].vector(),
                 speed: self.relative_speed(node),
                 element,
                 jacobian,

@@ -1,6 +1,7 @@
 //! What the guards say of a run that they stop.
 
 use crate::unsolved::Unsolved;
+use nalgebra::Vector3;
 use std::fmt;
 
 /// Coefficient of the hourglass stiffness that is usual (Flanagan and Belytschko 1981).
@@ -89,7 +90,7 @@ pub struct Location {
     /// What its body is called.
     pub body: &'static str,
     /// Its reference position (m).
-    pub position: [f64; 3],
+    pub position: Vector3<f64>,
     /// Its speed relative to its body (m/s).
     pub speed: f64,
     /// The element with the smallest det F at a corner.
@@ -214,7 +215,7 @@ impl fmt::Display for Diagnosis {
                 end * 1e3
             )?,
         }
-        let [x, y, z] = place.position.map(|c| c * 1e3);
+        let [x, y, z] = (1e3 * place.position).into();
         write!(
             f,
             ". {} node {} of the {} (reference position {x:.3}, {y:.3}, {z:.3} mm), {:.3e} m/s \

@@ -2,20 +2,21 @@
 
 use crate::ramp::smoothstep;
 use mesh::Padded;
+use nalgebra::Vector3;
 
 /// Forces on nodes that keep their direction, rising together by a smoothstep.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Load {
     /// Nodes and the forces on them after the ramp (N).
-    pub forces: Vec<(u32, [f64; 3])>,
+    pub forces: Vec<(u32, Vector3<f64>)>,
     /// Duration of the ramp (s); zero for a load that acts at once.
     pub ramp: f64,
 }
 
 impl Load {
     /// The weight of nodes of these masses (kg) under a uniform acceleration (m/s^2).
-    pub fn weight(mass: &[f64], nodes: std::ops::Range<usize>, acceleration: [f64; 3]) -> Self {
-        let forces = nodes.map(|n| (n as u32, acceleration.map(|a| mass[n] * a))).collect();
+    pub fn weight(mass: &[f64], nodes: std::ops::Range<usize>, acceleration: Vector3<f64>) -> Self {
+        let forces = nodes.map(|n| (n as u32, mass[n] * acceleration)).collect();
         Self { forces, ramp: 0.0 }
     }
 
@@ -23,18 +24,13 @@ impl Load {
     pub(crate) fn apply(&self, time: f64, force: &mut [Padded]) {
         let share = smoothstep(time, self.ramp);
         for (n, f) in &self.forces {
-            for i in 0..3 {
-                force[*n as usize].0[i] += share * f[i];
-            }
+            force[*n as usize] += share * f;
         }
     }
 
     /// Power of the forces at `time` on nodes that move at `velocity` (W).
     pub(crate) fn power(&self, time: f64, velocity: &[Padded]) -> f64 {
-        let power = |(n, f): &(u32, [f64; 3])| {
-            let v = velocity[*n as usize].0;
-            f[0] * v[0] + f[1] * v[1] + f[2] * v[2]
-        };
+        let power = |(n, f): &(u32, Vector3<f64>)| f.dot(&velocity[*n as usize].vector());
         smoothstep(time, self.ramp) * exact_sum::sum(self.forces.iter().map(power))
     }
 }

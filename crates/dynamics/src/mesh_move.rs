@@ -129,7 +129,7 @@ impl Simulation {
         let mass = &self.system.mass;
         let momentum = |u: &[Padded], v: &[Padded]| {
             let upper = nodes.clone().filter(|&n| free(n));
-            Momentum::sum(upper.map(|n| {
+            momentum_of(upper.map(|n| {
                 let (arm, rigid) =
                     (to.arm(reference[n], u[n]), to.rigid_velocity(reference[n], u[n]));
                 (mass[n], arm, [v[n][0] - rigid[0], v[n][2] - rigid[1]])
@@ -154,9 +154,9 @@ impl Simulation {
         for (n, (place, velocity)) in nodes.clone().zip(carried_over) {
             (u[n], v[n]) = (place, velocity);
         }
-        let gained = momentum(u, v).minus(before);
+        let gained = momentum(u, v) - before;
         let carriers = interpolated.iter().map(|&n| (mass[n], to.arm(reference[n], u[n])));
-        if let Some([ax, az, alpha]) = gained.rigid_motion(carriers) {
+        if let Some([ax, az, alpha]) = rigid_motion(gained, carriers) {
             for &n in &interpolated {
                 let [x, z] = to.arm(reference[n], u[n]);
                 v[n][0] -= ax + alpha * z;
@@ -170,7 +170,7 @@ impl Simulation {
 }
 
 fn sum(a: Padded, b: Padded) -> Padded {
-    Padded::new([0, 1, 2].map(|i| a[i] + b[i]))
+    Padded::from(a.vector() + b.vector())
 }
 
 /// The hub's rigid motion, which carries the upper body.
@@ -252,41 +252,35 @@ fn direction([x, z]: [f64; 2]) -> [f64; 2] {
     [x / length, z / length]
 }
 
-/// Momentum in x and z, and its moment about y through the hub's centre (N s, N m s).
-#[derive(Clone, Copy)]
-struct Momentum([f64; 3]);
-
-impl Momentum {
-    /// Of masses (kg) with arms (m) and velocities (m/s).
-    fn sum(bodies: impl Iterator<Item = (f64, [f64; 2], [f64; 2])>) -> Self {
-        let mut sum = [ExactSum::ZERO; 3];
-        for (m, [x, z], [vx, vz]) in bodies {
-            sum[0].add(m * vx);
-            sum[1].add(m * vz);
-            sum[2].add(m * (z * vx - x * vz));
-        }
-        Self(sum.map(|s| s.value()))
+/// Momentum in x and z, and its moment about y through the hub's centre (N s, N m s), of masses (kg) with arms (m) and
+/// velocities (m/s).
+fn momentum_of(bodies: impl Iterator<Item = (f64, [f64; 2], [f64; 2])>) -> Vector3<f64> {
+    let mut sum = [ExactSum::ZERO; 3];
+    for (m, [x, z], [vx, vz]) in bodies {
+        sum[0].add(m * vx);
+        sum[1].add(m * vz);
+        sum[2].add(m * (z * vx - x * vz));
     }
+    sum.map(|s| s.value()).into()
+}
 
-    fn minus(self, other: Self) -> Self {
-        Self([0, 1, 2].map(|i| self.0[i] - other.0[i]))
+/// The rigid motion, velocity in x and z and angular velocity, with which masses at these arms have this momentum.
+fn rigid_motion(
+    momentum: Vector3<f64>,
+    masses: impl Iterator<Item = (f64, [f64; 2])>,
+) -> Option<[f64; 3]> {
+    let mut sums = [ExactSum::ZERO; 4];
+    for (m, [x, z]) in masses {
+        sums[0].add(m);
+        sums[1].add(m * x);
+        sums[2].add(m * z);
+        sums[3].add(m * (x * x + z * z));
     }
-
-    /// The rigid motion, velocity in x and z and angular velocity, with which masses at these arms have this momentum.
-    fn rigid_motion(self, masses: impl Iterator<Item = (f64, [f64; 2])>) -> Option<[f64; 3]> {
-        let mut sums = [ExactSum::ZERO; 4];
-        for (m, [x, z]) in masses {
-            sums[0].add(m);
-            sums[1].add(m * x);
-            sums[2].add(m * z);
-            sums[3].add(m * (x * x + z * z));
-        }
-        let [mass, sx, sz, inertia] = sums.map(|s| s.value());
-        let [px, pz, l] = self.0;
-        // p = m a + alpha (sz, -sx), l = sz ax - sx az + inertia alpha
-        let about_centroid = inertia - (sx * sx + sz * sz) / mass;
-        let alpha = (l - (sz * px - sx * pz) / mass) / about_centroid;
-        let motion = [(px - alpha * sz) / mass, (pz + alpha * sx) / mass, alpha];
-        motion.iter().all(|c| c.is_finite()).then_some(motion)
-    }
+    let [mass, sx, sz, inertia] = sums.map(|s| s.value());
+    let [px, pz, l] = momentum.into();
+    // p = m a + alpha (sz, -sx), l = sz ax - sx az + inertia alpha
+    let about_centroid = inertia - (sx * sx + sz * sz) / mass;
+    let alpha = (l - (sz * px - sx * pz) / mass) / about_centroid;
+    let motion = [(px - alpha * sz) / mass, (pz + alpha * sx) / mass, alpha];
+    motion.iter().all(|c| c.is_finite()).then_some(motion)
 }

@@ -3,6 +3,7 @@
 use crate::load::Fixed;
 use exact_sum::ExactSum;
 use mesh::{Mesh, Padded, Surface, quad_corner_areas};
+use nalgebra::Vector3;
 use solid::Material;
 
 /// Dashpots t = -rho c_p v_n n - rho c_s v_t (Lysmer and Kuhlemeyer 1969) on the nodes of an end,
@@ -16,9 +17,9 @@ pub struct QuietEnd {
 struct QuietNode {
     node: u32,
     /// Dashpot coefficient per direction (N s/m); the end's normal is along x.
-    dashpot: [f64; 3],
+    dashpot: Vector3<f64>,
     /// Force (N) that balances the preload.
-    reaction: [f64; 3],
+    reaction: Vector3<f64>,
 }
 
 /// Energies of a step at the quiet ends, split at the full step (J).
@@ -35,10 +36,7 @@ impl QuietEnd {
     pub fn new(mesh: &Mesh, ends: &[&Surface], material: &Material, held: &[u32]) -> Self {
         let mut area = std::collections::BTreeMap::<u32, f64>::new();
         for face in ends.iter().flat_map(|s| &s.faces) {
-            for (n, a) in face
-                .nodes
-                .iter()
-                .zip(quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize])))
+            for (n, a) in face.nodes.iter().zip(quad_corner_areas(&face.nodes.map(|n| mesh.at(n))))
             {
                 *area.entry(*n).or_default() += a;
             }
@@ -49,7 +47,8 @@ impl QuietEnd {
             .map(|(node, a)| {
                 let normal = material.density * material.c_p() * a;
                 let shear = material.density * material.c_s() * a;
-                QuietNode { node, dashpot: [normal, shear, shear], reaction: [0.0; 3] }
+                let dashpot = Vector3::new(normal, shear, shear);
+                QuietNode { node, dashpot, reaction: Vector3::zeros() }
             })
             .collect();
         Self { nodes }
@@ -63,18 +62,18 @@ impl QuietEnd {
     /// Takes over the reactions that held the nodes in equilibrium under `force` (N).
     pub fn keep_reactions(&mut self, force: &[Padded]) {
         for n in &mut self.nodes {
-            n.reaction = force[n.node as usize].xyz().map(|f| -f);
+            n.reaction = -force[n.node as usize].vector();
         }
     }
 
     /// The forces (N) that balance the preload, node after node.
     pub(crate) fn reactions(&self) -> impl Iterator<Item = [f64; 3]> + '_ {
-        self.nodes.iter().map(|n| n.reaction)
+        self.nodes.iter().map(|n| n.reaction.into())
     }
 
     /// Takes over what [`Self::reactions`] gave.
     pub(crate) fn set_reactions(&mut self, reactions: &[[f64; 3]]) {
-        self.nodes.iter_mut().zip(reactions).for_each(|(n, r)| n.reaction = *r);
+        self.nodes.iter_mut().zip(reactions).for_each(|(n, r)| n.reaction = (*r).into());
     }
 
     /// Leaves fixed directions to their supports.
@@ -91,7 +90,7 @@ impl QuietEnd {
     }
 
     /// The coefficients of the dashpots (N s/m), node after node.
-    pub(crate) fn dashpots(&self) -> impl Iterator<Item = (u32, [f64; 3])> + '_ {
+    pub(crate) fn dashpots(&self) -> impl Iterator<Item = (u32, Vector3<f64>)> + '_ {
         self.nodes.iter().map(|n| (n.node, n.dashpot))
     }
 
@@ -99,11 +98,9 @@ impl QuietEnd {
     pub(crate) fn add_reactions(&self, velocity: &[Padded], force: &mut [Padded]) -> f64 {
         let mut power = ExactSum::ZERO;
         for n in &self.nodes {
-            let (f, v) = (&mut force[n.node as usize], velocity[n.node as usize]);
-            for i in 0..3 {
-                f.0[i] += n.reaction[i];
-                power.add(n.reaction[i] * v.0[i]);
-            }
+            force[n.node as usize] += n.reaction;
+            let v = velocity[n.node as usize];
+            (0..3).for_each(|i| power.add(n.reaction[i] * v[i]));
         }
         power.value()
     }

@@ -30,23 +30,15 @@ pub fn rolling_field(mesh: &Mesh, displacement: &[Padded], field: &RollingField)
     let mut velocity = vec![Padded::ZERO; mesh.nodes.len()];
     for (index, body) in mesh.bodies.iter().enumerate() {
         for n in body.nodes.clone() {
-            let h = &gradients[n];
-            let (x, z) = (mesh.nodes[n][0] - field.centre[0], mesh.nodes[n][2] - field.centre[2]);
-            let carrier = if index == field.upper {
-                [field.omega * z, 0.0, -field.omega * x]
-            } else {
-                [-field.speed, 0.0, 0.0]
-            };
-            for i in 0..3 {
-                let flow: f64 = (0..3).map(|j| h[i][j] * carrier[j]).sum();
-                velocity[n].0[i] = flow + if index == field.upper { carrier[i] } else { 0.0 };
-            }
-            if index == field.upper {
-                velocity[n].0[0] += field.speed;
+            velocity[n] = if index == field.upper {
+                let arm = mesh.nodes[n] - field.centre;
+                let carrier = field.omega * Vector3::new(arm.z, 0.0, -arm.x);
                 let back = 0.5 * field.dt * field.omega * field.omega;
-                velocity[n].0[0] += back * x;
-                velocity[n].0[2] += back * z;
-            }
+                let moving = gradients[n] * carrier + carrier + field.speed * Vector3::x();
+                (moving + back * Vector3::new(arm.x, 0.0, arm.z)).into()
+            } else {
+                (gradients[n] * Vector3::new(-field.speed, 0.0, 0.0)).into()
+            };
         }
     }
     velocity

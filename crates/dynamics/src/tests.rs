@@ -4,6 +4,7 @@ mod sideways;
 
 use super::*;
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric, lumped_mass};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
@@ -204,7 +205,7 @@ fn smoothstep_rises_from_zero_to_one_and_is_a_step_without_a_ramp() {
 fn a_weight_on_a_free_body_gives_its_acceleration_and_its_work_is_booked() {
     let mesh = mesh::block([2, 2, 2], [2e-3, 2e-3, 2e-3]);
     let mut setup = free_body(&mesh, 0.67, Vec::new(), QuietEnd::default());
-    let g = [30.0, -20.0, 10.0];
+    let g = Vector3::new(30.0, -20.0, 10.0);
     setup.system.load = Load::weight(&setup.system.mass, 0..mesh.nodes.len(), g);
     let mass: f64 = setup.system.mass.iter().sum();
     let dt = setup.dt;

@@ -40,7 +40,7 @@ impl Missed {
     pub(crate) fn under(&self, loads: [f64; 3]) -> impl Iterator<Item = Padded> {
         let Self { along, outward, centrifugal } = self;
         along.iter().zip(outward).zip(centrifugal).map(move |((a, o), c)| {
-            Padded::new([0, 1, 2].map(|i| loads[0] * a[i] + loads[1] * o[i] + loads[2] * c[i]))
+            Padded::from(loads[0] * a.vector() + loads[1] * o.vector() + loads[2] * c.vector())
         })
     }
 }

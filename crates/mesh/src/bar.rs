@@ -6,6 +6,7 @@ use crate::grid::{Grid, nodes_of};
 use crate::shells::{BOTTOM, Extent, FRONT, REAR, TOP, ZONE, down, shells};
 use crate::zone::{check_crown, sag};
 use crate::{Allowed, FineZone, Grading, Mesh, MeshError, Parameter, SmoothSurface, Surface};
+use nalgebra::Vector3;
 
 /// The shape of a straight bar along `x`; the apex of its top is at `z = 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +63,7 @@ fn graded(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     };
     let made = shells(&extent, zone, |[x, y, depth]| {
         let z = -depth;
-        [x, y, z - sag(crown, y) * (z + height) / height]
+        Vector3::new(x, y, z - sag(crown, y) * (z + height) / height)
     })?;
     let smooth = Some(SmoothSurface::Top { apex: 0.0, crown });
     Ok(made.named(

@@ -1,6 +1,6 @@
 //! Checks that a mesh is fit for the solver.
 
-use crate::hex::area;
+use crate::geometry::vector_area;
 use crate::near::{COINCIDENT, duplicates, hanging};
 use crate::quality::scaled_jacobian;
 use crate::{Body, Face, HEX_FACES, Mesh, MeshError};
@@ -30,7 +30,11 @@ pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
         check_shapes(mesh, body)?;
         let boundary = boundary(mesh, body)?;
         if let Some((first, second)) = duplicates(mesh, body, COINCIDENT) {
-            return Err(MeshError::DuplicateNodes { first, second, point: mesh.nodes[first] });
+            return Err(MeshError::DuplicateNodes {
+                first,
+                second,
+                point: mesh.nodes[first].into(),
+            });
         }
         if let Some((node, face)) = hanging(mesh, &boundary) {
             let (node, element) = (node as usize, face.hex as usize);
@@ -95,7 +99,7 @@ fn check_shapes(mesh: &Mesh, body: &Body) -> Result<(), MeshError> {
     for node in body.nodes.clone() {
         let point = mesh.nodes[node];
         if !point.iter().all(|x| x.is_finite()) {
-            return Err(MeshError::NotFinite { node, point });
+            return Err(MeshError::NotFinite { node, point: point.into() });
         }
     }
     for element in body.hexes.clone() {
@@ -162,7 +166,7 @@ pub(crate) fn boundary(mesh: &Mesh, body: &Body) -> Result<Vec<Face>, MeshError>
 
 /// Whether `point` lies on the quadrilateral `corners`, within `tolerance` (m).
 pub(crate) fn lies_on(point: Vector3<f64>, corners: [Vector3<f64>; 4], tolerance: f64) -> bool {
-    let normal = UnitVector3::new_normalize(area(corners));
+    let normal = UnitVector3::new_normalize(vector_area(corners));
     if (point - corners[0]).dot(&normal).abs() > tolerance {
         return false;
     }

@@ -85,7 +85,7 @@ fn graded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
         // the hub exactly, whatever round-off says
         let r = if z == hub { hub_radius } else { radius * libm::exp(-z / radius) };
         let r = r - sag(crown, y) * ((r - hub_radius) / thickness);
-        [r * sin, y, radius - r * cos]
+        Vector3::new(r * sin, y, radius - r * cos)
     })?;
     let smooth = Some(SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown });
     Ok(made.named(
@@ -116,7 +116,7 @@ fn extruded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
         let fade = (r - hub_radius) / (radius - hub_radius);
         nodes.extend(y.points.iter().map(|&y| {
             let r = r - sag(crown, y) * fade;
-            [r * sin, y, radius - r * cos]
+            Vector3::new(r * sin, y, radius - r * cos)
         }));
     }
     let at = |plane: u32, j: usize| plane * (ny as u32 + 1) + j as u32;

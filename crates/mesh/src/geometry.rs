@@ -27,6 +27,17 @@ pub fn rotation_about_y(angle: f64) -> Rotation3<f64> {
     Rotation3::from_matrix_unchecked(Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos))
 }
 
+/// Vector area of a quadrilateral: half the product of its diagonals.
+pub fn vector_area([a, b, c, d]: [Vector3<f64>; 4]) -> Vector3<f64> {
+    0.5 * (c - a).cross(&(d - b))
+}
+
+/// The lowest and the highest coordinates of points: the corners of the box around them.
+pub fn hull<'a>(points: impl IntoIterator<Item = &'a Vector3<f64>>) -> [Vector3<f64>; 2] {
+    let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
+    points.into_iter().fold(nothing, |[low, high], p| [low.inf(p), high.sup(p)])
+}
+
 /// The adjugate of a matrix: its inverse times its determinant.
 #[inline(always)]
 pub fn adjugate(m: &Matrix2<f64>) -> Matrix2<f64> {

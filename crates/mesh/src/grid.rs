@@ -2,6 +2,7 @@
 
 use crate::error::{MAX_ELEMENTS, within};
 use crate::{Allowed, Body, Face, HEX_FACES, Mesh, MeshError, Parameter, Surface};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -32,7 +33,7 @@ impl Grid {
         let mut nodes = Vec::with_capacity(xs.len() * ys.len() * zs.len());
         for &x in xs {
             for &z in zs {
-                nodes.extend(ys.iter().map(|&y| [x, y, z]));
+                nodes.extend(ys.iter().map(|&y| Vector3::new(x, y, z)));
             }
         }
         let mut hexes = Vec::with_capacity(nx * ny * nz);

@@ -23,7 +23,7 @@ pub enum NotSymmetric {
         /// Index in the mesh.
         element: usize,
         /// Mean of its corners (m).
-        centre: [f64; 3],
+        centre: Vector3<f64>,
     },
     /// A node has no mirror image.
     #[error("node {node} at ({:.6}, {:.6}, {:.6}) m has no mirror image", at[0], at[1], at[2])]
@@ -31,7 +31,7 @@ pub enum NotSymmetric {
         /// Index in the mesh.
         node: usize,
         /// Where it is (m).
-        at: [f64; 3],
+        at: Vector3<f64>,
     },
     /// An element has no mirror image, although its nodes have theirs.
     #[error("element {element} has no mirror image, although its nodes have theirs")]
@@ -122,7 +122,7 @@ impl Mirror {
             let on = |side: i8| hex.iter().any(|&n| self.side(mesh, n) == side);
             if on(-1) && on(1) {
                 let centre = hex.iter().map(|&corner| mesh.at(corner) / 8.0).sum::<Vector3<f64>>();
-                return Err(NotSymmetric::Across { element, centre: centre.into() });
+                return Err(NotSymmetric::Across { element, centre });
             }
         }
         Ok(())
@@ -131,18 +131,17 @@ impl Mirror {
     /// Finds the image of each node among nodes sorted into cells much larger than the tolerance.
     fn find_nodes(&mut self, mesh: &Mesh) -> Result<(), NotSymmetric> {
         let size = self.near / COINCIDENT;
-        let cell = |x: [f64; 3]| x.map(|c| (c / size).floor() as i64);
+        let cell = |x: Vector3<f64>| <[i64; 3]>::from(x.map(|c| (c / size).floor() as i64));
         let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(self.nodes.len());
         for node in self.nodes.clone() {
             cells.entry(cell(mesh.nodes[node])).or_default().push(node as u32);
         }
         for node in self.nodes.clone() {
             let at = mesh.nodes[node];
-            let wanted = [at[0], -at[1], at[2]];
-            let low = cell(wanted.map(|c| c - 2.0 * self.near));
-            let high = cell(wanted.map(|c| c + 2.0 * self.near));
-            let is_image =
-                |&n: &u32| (mesh.at(n) - Vector3::from(wanted)).norm() <= 2.0 * self.near;
+            let wanted = Vector3::new(at.x, -at.y, at.z);
+            let low = cell(wanted.add_scalar(-2.0 * self.near));
+            let high = cell(wanted.add_scalar(2.0 * self.near));
+            let is_image = |&n: &u32| (mesh.at(n) - wanted).norm() <= 2.0 * self.near;
             let found =
                 boxes(low, high).find_map(|c| cells.get(&c)?.iter().copied().find(is_image));
             self.image[node - self.nodes.start] = match self.side(mesh, node as u32) {
@@ -192,7 +191,7 @@ impl Mirror {
         let mut number = vec![NONE; self.nodes.len()];
         let mut plane = Vec::new();
         for node in self.nodes.clone() {
-            let [x, y, z] = mesh.nodes[node];
+            let mut at = mesh.nodes[node];
             let side = self.side(mesh, node as u32);
             if side < 0 {
                 continue;
@@ -201,8 +200,9 @@ impl Mirror {
             number[node - self.nodes.start] = new;
             if side == 0 {
                 plane.push(new);
+                at.y = 0.0;
             }
-            half.nodes.push([x, if side == 0 { 0.0 } else { y }, z]);
+            half.nodes.push(at);
         }
         let renumbered = |node: u32| number[node as usize - self.nodes.start];
         let first_hex = half.hexes.len();
@@ -281,7 +281,7 @@ mod tests {
     }
 
     fn volume(mesh: &Mesh) -> f64 {
-        mesh.hexes.iter().map(|h| hex_volume(&h.map(|n| mesh.nodes[n as usize]))).sum()
+        mesh.hexes.iter().map(|h| hex_volume(&h.map(|n| mesh.at(n)))).sum()
     }
 
     #[test]

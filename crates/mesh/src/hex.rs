@@ -39,14 +39,9 @@ pub const HEX_CORNERS: [[f64; 3]; 8] = [
     [-1.0, 1.0, 1.0],
 ];
 
-/// Vector area of a quadrilateral: half the product of its diagonals (m^2).
-pub(crate) fn area(p: [Vector3<f64>; 4]) -> Vector3<f64> {
-    0.5 * (p[2] - p[0]).cross(&(p[3] - p[1]))
-}
-
 /// Volume (m^3) of the trilinear hexahedron with corners `p` (m) in `VTK_HEXAHEDRON` order, negative if it is inside
 /// out: 2x2x2 Gauss points integrate its Jacobian exactly.
-pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
+pub fn hex_volume(p: &[Vector3<f64>; 8]) -> f64 {
     let g = 1.0 / 3f64.sqrt();
     let mut volume = 0.0;
     for at in HEX_CORNERS {
@@ -58,7 +53,7 @@ pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
                 0.125 * corner[1] * s[0] * s[2],
                 0.125 * corner[2] * s[0] * s[1],
             );
-            jacobian += Vector3::from(*x) * gradient.transpose();
+            jacobian += x * gradient.transpose();
         }
         volume += jacobian.column(0).dot(&jacobian.column(1).cross(&jacobian.column(2)));
     }
@@ -68,13 +63,13 @@ pub fn hex_volume(p: &[[f64; 3]; 8]) -> f64 {
 /// Integral of each corner's shape function over the bilinear face with corners `x` (m), in order around it (m^2).
 ///
 /// By 2x2 Gauss points: exact for a plane, convex face.
-pub fn quad_corner_areas(x: &[[f64; 3]; 4]) -> [f64; 4] {
+pub fn quad_corner_areas(x: &[Vector3<f64>; 4]) -> [f64; 4] {
     const CORNERS: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
     let g = 1.0 / 3f64.sqrt();
     let mut areas = [0.0; 4];
     for [xi, eta] in CORNERS.map(|c| [c[0] * g, c[1] * g]) {
         let (mut a, mut b) = (Vector3::zeros(), Vector3::zeros());
-        for (corner, x) in CORNERS.iter().zip(x.map(Vector3::from)) {
+        for (corner, x) in CORNERS.iter().zip(x) {
             a += 0.25 * corner[0] * (1.0 + corner[1] * eta) * x;
             b += 0.25 * corner[1] * (1.0 + corner[0] * xi) * x;
         }
@@ -92,7 +87,8 @@ mod tests {
 
     #[test]
     fn corner_areas_of_a_trapezium_have_its_area_and_its_first_moments() {
-        let x = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [3.0, 2.0, 1.0], [1.0, 2.0, 1.0]];
+        let x =
+            [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [3.0, 2.0, 1.0], [1.0, 2.0, 1.0]].map(Vector3::from);
         let areas = quad_corner_areas(&x);
         // area 6, centroid y = h/3 (a + 2b)/(a + b) = 8/9 with a = 4, b = 2, h = 2
         assert!((areas.iter().sum::<f64>() - 6.0).abs() < 1e-14);

@@ -9,7 +9,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     /// Reference coordinates (m).
-    pub nodes: Vec<[f64; 3]>,
+    pub nodes: Vec<Vector3<f64>>,
     /// Node indices of each hexahedron in `VTK_HEXAHEDRON` order.
     pub hexes: Vec<[u32; 8]>,
     /// The bodies; their ranges cover `nodes` and `hexes` in order, without gaps or overlaps.
@@ -22,7 +22,7 @@ impl Mesh {
     /// Where a node is in the reference configuration (m).
     #[inline]
     pub fn at(&self, node: u32) -> Vector3<f64> {
-        self.nodes[node as usize].into()
+        self.nodes[node as usize]
     }
 }
 

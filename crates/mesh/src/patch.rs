@@ -1,6 +1,7 @@
 //! The mesh of the patch test.
 
 use crate::{Body, HEX_CORNERS, Mesh};
+use nalgebra::Vector3;
 
 /// The unit cube (1 m) with a skewed hexahedron inside, seven elements in all, for patch tests. Nodes 0 to 7 are
 /// the corners of the cube, 8 to 15 those of the inner element, which is element 0. One body, `"patch"`.
@@ -35,7 +36,7 @@ pub fn seven_hex_patch() -> Mesh {
             surfaces: Default::default(),
         }],
         symmetric: false,
-        nodes: outer.into_iter().chain(INNER).collect(),
+        nodes: outer.into_iter().chain(INNER).map(Vector3::from).collect(),
         hexes,
     }
 }

@@ -1,7 +1,8 @@
 //! Shape of the elements.
 
 use crate::Mesh;
-use crate::hex::{HEX_EDGES, area, hex_volume};
+use crate::geometry::vector_area;
+use crate::hex::{HEX_EDGES, hex_volume};
 use crate::{HEX_FACES, hex};
 use nalgebra::Vector3;
 
@@ -68,9 +69,9 @@ pub fn quality(mesh: &Mesh) -> Quality {
         q.max_edge = q.max_edge.max(longest);
         let mut largest = 0f64;
         for face in HEX_FACES {
-            largest = largest.max(area(face.map(|c| p[c])).norm());
+            largest = largest.max(vector_area(face.map(|c| p[c])).norm());
         }
-        let volume = hex_volume(&p.map(Into::into));
+        let volume = hex_volume(&p);
         q.volume += volume;
         if volume / largest < q.min_thickness {
             q.min_thickness = volume / largest;

@@ -1,6 +1,7 @@
 //! Slices: meshes one element wide along y, whose nodes lie opposite each other.
 
 use crate::{HEX_EDGES, Mesh};
+use nalgebra::Vector3;
 use thiserror::Error;
 
 /// Largest distance in the plane (x, z) between two opposite nodes, over their distance along y: the round-off of
@@ -17,7 +18,7 @@ pub struct NoSlice {
     /// Index in the mesh.
     pub element: usize,
     /// Mean of its corners (m).
-    pub centre: [f64; 3],
+    pub centre: Vector3<f64>,
 }
 
 /// The pairs of nodes that lie opposite each other across a slice one element wide along y. The first node of each
@@ -30,8 +31,8 @@ pub fn across(mesh: &Mesh) -> Result<Vec<[u32; 2]>, NoSlice> {
     let mut partner = vec![NONE; mesh.nodes.len()];
     let mut pairs = Vec::with_capacity(mesh.nodes.len() / 2);
     for (element, hex) in mesh.hexes.iter().enumerate() {
-        let corners = hex.map(|n| mesh.nodes[n as usize]);
-        let centre = [0, 1, 2].map(|i: usize| corners.iter().map(|x| x[i]).sum::<f64>() / 8.0);
+        let corners = hex.map(|n| mesh.at(n));
+        let centre = corners.iter().sum::<Vector3<f64>>() / 8.0;
         let mut edges = 0;
         for ends in HEX_EDGES {
             let [mut a, mut b] = ends;
@@ -41,11 +42,11 @@ pub fn across(mesh: &Mesh) -> Result<Vec<[u32; 2]>, NoSlice> {
             if corners[b][1] < corners[a][1] {
                 (a, b) = (b, a);
             }
-            let [dx, dy, dz] = [0, 1, 2].map(|i| corners[b][i] - corners[a][i]);
+            let across = corners[b] - corners[a];
             let [first, second] = [hex[a], hex[b]];
             let known = [partner[first as usize], partner[second as usize]];
             let like = known == [NONE; 2] || known == [second, first];
-            if !like || libm::hypot(dx, dz) > SLACK * dy {
+            if !like || libm::hypot(across.x, across.z) > SLACK * across.y {
                 return Err(NoSlice { element, centre });
             }
             if known == [NONE; 2] {
@@ -73,7 +74,7 @@ mod tests {
         let pairs = across(&mesh).unwrap();
         assert_eq!(2 * pairs.len(), mesh.nodes.len());
         for [a, b] in pairs {
-            let [a, b] = [a, b].map(|n| mesh.nodes[n as usize]);
+            let [a, b] = [a, b].map(|n| mesh.at(n));
             assert_eq!((a[0], a[2], a[1] + 2.0), (b[0], b[2], b[1]));
         }
     }

@@ -5,6 +5,7 @@
 //! their place and of its neighbours (moving least squares, Lancaster and Salkauskas 1981). Trilinear interpolation would
 //! flatten a field of positive curvature at every move, as if a force acted.
 
+use crate::geometry::hull;
 use crate::{Body, BoxTree, HEX_CORNERS, Mesh, Padded};
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::PI;
@@ -35,23 +36,23 @@ pub enum Chart {
 
 impl Chart {
     /// The coordinates of a point (m).
-    pub fn of(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub fn of(self, point: Vector3<f64>) -> Vector3<f64> {
         match self {
-            Self::Straight => [x, y, z],
+            Self::Straight => point,
             Self::Ring { radius } => {
-                let down = radius - z;
-                [radius * libm::atan2(x, down), y, libm::hypot(x, down)]
+                let (x, down) = (point.x, radius - point.z);
+                Vector3::new(radius * libm::atan2(x, down), point.y, libm::hypot(x, down))
             }
         }
     }
 
-    /// The unit vectors along the coordinates at a point, in x, y, z.
-    pub fn directions(self, [x, _, z]: [f64; 3]) -> [[f64; 3]; 3] {
+    /// The unit vectors along the coordinates at a point: the columns.
+    pub fn directions(self, point: Vector3<f64>) -> Matrix3<f64> {
         match self {
-            Self::Straight => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            Self::Straight => Matrix3::identity(),
             Self::Ring { radius } => {
-                let (sin, cos) = libm::sincos(libm::atan2(x, radius - z));
-                [[cos, 0.0, sin], [0.0, 1.0, 0.0], [sin, 0.0, -cos]]
+                let (sin, cos) = libm::sincos(libm::atan2(point.x, radius - point.z));
+                Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, sin, 0.0, -cos)
             }
         }
     }
@@ -100,7 +101,7 @@ impl Source {
 /// beyond the end of a straight body are moved back to it. `size` is the shortest distance that matters (m).
 pub fn sources_ahead(mesh: &Mesh, body: &Body, chart: Chart, ahead: f64, size: f64) -> Vec<Source> {
     let nodes = mesh.nodes[body.nodes.clone()].iter();
-    let at: Vec<Vector3<f64>> = nodes.map(|&x| chart.of(x).into()).collect();
+    let at: Vec<Vector3<f64>> = nodes.map(|&x| chart.of(x)).collect();
     let first = body.nodes.start as u32;
     let elements: Vec<[Vector3<f64>; 8]> = mesh.hexes[body.hexes.clone()]
         .iter()
@@ -299,11 +300,6 @@ fn around(points: &[Vector3<f64>], slack: f64) -> [Vector3<f64>; 2] {
     [low.add_scalar(-slack), high.add_scalar(slack)]
 }
 
-fn hull(points: &[Vector3<f64>]) -> [Vector3<f64>; 2] {
-    let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
-    points.iter().fold(nothing, |[low, high], p| [low.inf(p), high.sup(p)])
-}
-
 /// The trilinear shape functions at coordinates from -1 to 1.
 fn shape(inner: Vector3<f64>) -> [f64; 8] {
     HEX_CORNERS.map(|c| (0..3).map(|i| 0.5 * (1.0 + c[i] * inner[i])).product())
@@ -410,7 +406,7 @@ mod tests {
         let chart = Chart::Ring { radius: shape.radius };
         let ahead = 16e-3;
         let sources = sources_ahead(&mesh, &mesh.bodies[0], chart, ahead, 4e-3);
-        let q: Vec<[f64; 3]> = mesh.nodes.iter().map(|&x| chart.of(x)).collect();
+        let q: Vec<_> = mesh.nodes.iter().map(|&x| chart.of(x)).collect();
         let turn = chart.turn().unwrap();
         for (q_node, source) in q.iter().zip(&sources) {
             let there = q_node[0] + ahead;

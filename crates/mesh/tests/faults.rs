@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use mesh::{Mesh, MeshError, block, check, join, quality};
+use nalgebra::Vector3;
 
 fn cube() -> Mesh {
     block([3, 3, 3], [3.0, 3.0, 3.0])
@@ -68,7 +69,7 @@ fn sides_of_a_block_face_outwards() {
         assert_eq!(body.surfaces[name].faces.len(), count);
         assert!(body.node_sets[name].iter().all(|&n| mesh.nodes[n as usize][axis] == at));
         for face in &body.surfaces[name].faces {
-            let p = face.nodes.map(|n| mesh.nodes[n as usize]);
+            let p = face.nodes.map(|n| mesh.at(n));
             let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
             let turn = (p[1][u] - p[0][u]) * (p[2][v] - p[1][v])
                 - (p[1][v] - p[0][v]) * (p[2][u] - p[1][u]);
@@ -122,10 +123,9 @@ fn a_hanging_node_is_found() {
     for p in &mut mesh.nodes[8..] {
         p[0] += 1.0;
     }
-    let same = |a: [f64; 3], b: [f64; 3]| a.iter().zip(&b).all(|(a, b)| a == b);
-    let (mut nodes, mut new) = (Vec::new(), Vec::new());
+    let (mut nodes, mut new) = (Vec::<Vector3<f64>>::new(), Vec::new());
     for &p in &mesh.nodes {
-        let known = nodes.iter().position(|&q| same(p, q));
+        let known = nodes.iter().position(|q| *q == p);
         new.push(known.unwrap_or(nodes.len()) as u32);
         if known.is_none() {
             nodes.push(p);
@@ -183,7 +183,7 @@ fn sets_and_surfaces_that_break_their_promise_are_found() {
 #[test]
 fn nodes_without_elements_and_ranges_with_gaps_are_found() {
     let mut mesh = cube();
-    mesh.nodes.push([9.0; 3]);
+    mesh.nodes.push(Vector3::repeat(9.0));
     assert!(matches!(check(&mesh), Err(MeshError::BodyRange { .. })));
     mesh.bodies[0].nodes.end += 1;
     assert_eq!(check(&mesh), Err(MeshError::LooseNode { node: 64 }));

@@ -3,6 +3,7 @@
 
 use mesh::Mesh;
 use mesh::import::{Fault, Foreign, Format, ImportError, Place, Set, SetNames, Unit, bodies};
+use nalgebra::Vector3;
 use std::fs;
 use std::path::Path;
 
@@ -234,7 +235,7 @@ fn numbers_are_read_in_either_order_of_their_bytes() {
     for big_endian in [false, true] {
         for file in [cube_4(big_endian, 8, 1), cube_2(big_endian, 8, 1)] {
             let cube = Format::Gmsh.read(&file).unwrap();
-            assert_eq!(cube.points, CORNERS);
+            assert_eq!(cube.points, CORNERS.map(Vector3::from));
             assert_eq!(cube.hexes, [[0, 1, 2, 3, 4, 5, 6, 7]]);
             assert_eq!((&cube.elements.ids[..], &cube.elements.lines[..]), (&[11][..], &[][..]));
             assert_eq!(cube.sets["the disk"].hexes, [0]);

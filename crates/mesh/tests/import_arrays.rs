@@ -5,6 +5,7 @@ use mesh::import::{
     Fault, Foreign, ImportError, Imported, Set, SetNames, SetRole, Shape, Unit, bodies, fit,
 };
 use mesh::{Bar, Disk, FineZone, Grading, HEX_FACES, Mesh, Parameter, bar, disk, join};
+use nalgebra::Vector3;
 
 const DISK: Disk = Disk { radius: 0.1, hub_radius: 0.05, width: 20e-3, crown: None };
 const BAR: Bar = Bar { length: 0.1, width: 20e-3, height: 20e-3, crown: Some(0.3), start: -0.05 };
@@ -58,7 +59,7 @@ fn fault(foreign: &Foreign) -> Fault {
 /// Sorted, as bits.
 fn places(mesh: &Mesh, nodes: impl IntoIterator<Item = u32>) -> Vec<[u64; 3]> {
     let mut places: Vec<_> =
-        nodes.into_iter().map(|n| mesh.nodes[n as usize].map(f64::to_bits)).collect();
+        nodes.into_iter().map(|n| mesh.at(n).map(f64::to_bits).into()).collect();
     places.sort_unstable();
     places
 }
@@ -161,7 +162,7 @@ fn hexahedra_numbered_inside_out_are_turned_and_counted() {
 fn nodes_without_elements_are_left_out_and_counted() {
     let mut mesh = foreign();
     let loose = mesh.points.len() as u32;
-    mesh.points.push([0.0, 0.0, 0.1]);
+    mesh.points.push(Vector3::new(0.0, 0.0, 0.1));
     mesh.sets.get_mut("hub").unwrap().nodes.push(loose);
     let mended = import(&mesh).unwrap();
     assert!(mended.notes[0].contains(&format!("node {loose}")), "{:?}", mended.notes);

@@ -8,6 +8,7 @@ use mesh::import::{
 };
 use mesh::import::{read_abaqus, read_gmsh, read_vtu, write_gmsh};
 use mesh::{Bar, Disk, FineZone, Grading, Mesh};
+use nalgebra::Vector3;
 use std::fs;
 use std::path::Path;
 
@@ -103,7 +104,7 @@ const CUBE_2: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n3
 fn a_cube_of_msh_2_2_is_read_with_its_numbers_lines_and_groups() {
     let cube = read_gmsh(CUBE_2.as_bytes()).unwrap();
     assert_eq!((cube.points.len(), cube.hexes), (8, vec![[0, 1, 2, 3, 4, 5, 6, 7]]));
-    assert_eq!(cube.points[6], [1.0, 1.0, 1.0]);
+    assert_eq!(cube.points[6], Vector3::repeat(1.0));
     assert_eq!((cube.nodes.ids[7], cube.nodes.lines[7]), (9, 17));
     assert_eq!((cube.elements.ids[0], cube.elements.lines[0]), (7, 22));
     assert_eq!(cube.sets["the disk"].hexes, [0]);
@@ -320,7 +321,7 @@ fn a_mesh_that_creepage_writes_raw_and_appended_is_read() {
         raw.extend(12u64.to_le_bytes());
         [0.5f32, -1.0, 0.25].iter().for_each(|x| raw.extend(x.to_le_bytes()));
         raw.extend(b"</AppendedData></VTKFile>");
-        assert_eq!(read_vtu(&raw).unwrap().points, [[0.5, -1.0, 0.25]]);
+        assert_eq!(read_vtu(&raw).unwrap().points, [Vector3::new(0.5, -1.0, 0.25)]);
     }
 }
 

@@ -4,6 +4,7 @@
 use mesh::{
     Bar, Body, Disk, FineZone, Grading, Mesh, MeshError, Parameter, bar, check, disk, join, quality,
 };
+use nalgebra::Vector3;
 use std::f64::consts::PI;
 
 const DISK: Disk = Disk { radius: 0.46, hub_radius: 0.10, width: 0.06, crown: None };
@@ -23,8 +24,8 @@ const fn zone(size: f64) -> FineZone {
     }
 }
 
-fn points<'a>(mesh: &'a Mesh, set: &'a [u32]) -> impl Iterator<Item = [f64; 3]> + 'a {
-    set.iter().map(|&n| mesh.nodes[n as usize])
+fn points<'a>(mesh: &'a Mesh, set: &'a [u32]) -> impl Iterator<Item = Vector3<f64>> + 'a {
+    set.iter().map(|&n| mesh.at(n))
 }
 
 fn body<'a>(mesh: &'a Mesh, name: &str) -> &'a Body {
@@ -32,7 +33,7 @@ fn body<'a>(mesh: &'a Mesh, name: &str) -> &'a Body {
 }
 
 /// Arc length of a point of the disk from the first contact.
-fn arc(p: [f64; 3]) -> f64 {
+fn arc(p: Vector3<f64>) -> f64 {
     DISK.radius * libm::atan2(p[0], DISK.radius - p[2])
 }
 
@@ -84,7 +85,7 @@ fn zone_faces_have_the_size_asked_for() {
         let surface = &body(&mesh, name).surfaces["zone"];
         assert_eq!(surface.faces.len(), 80 * 20);
         for face in &surface.faces {
-            let p = face.nodes.map(|n| mesh.nodes[n as usize]);
+            let p = face.nodes.map(|n| mesh.at(n));
             let s = p.map(|p| if name == "disk" { arc(p) } else { p[0] });
             let spread = |v: [f64; 4]| {
                 v.iter().fold(f64::MIN, |a, &b| a.max(b))
@@ -113,19 +114,19 @@ fn zone_faces_have_the_size_asked_for() {
 #[test]
 fn sets_hold_the_nodes_that_their_names_say() {
     let (d, b) = (disk(&CROWNED, &zone(2e-3)).unwrap(), bar(&BAR, &zone(2e-3)).unwrap());
-    let whole = |mesh: &Mesh, set: &[u32], test: &dyn Fn([f64; 3]) -> bool| {
+    let whole = |mesh: &Mesh, set: &[u32], test: &dyn Fn(Vector3<f64>) -> bool| {
         assert!(points(mesh, set).all(test));
         assert_eq!(mesh.nodes.iter().filter(|&&p| test(p)).count(), set.len());
     };
     let sets = &body(&d, "disk").node_sets;
-    let rho = |p: [f64; 3]| libm::hypot(p[0], p[2] - 0.46);
+    let rho = |p: Vector3<f64>| libm::hypot(p[0], p[2] - 0.46);
     whole(&d, &sets["hub"], &|p| (rho(p) - 0.10).abs() < 1e-12);
     let smooth = body(&d, "disk").surfaces["tread"].smooth.unwrap();
-    whole(&d, &sets["tread"], &|p| smooth.offset(p.into()).abs() < 1e-12);
+    whole(&d, &sets["tread"], &|p| smooth.offset(p).abs() < 1e-12);
 
     let sets = &body(&b, "bar").node_sets;
     let smooth = body(&b, "bar").surfaces["top"].smooth.unwrap();
-    whole(&b, &sets["top"], &|p| smooth.offset(p.into()).abs() < 1e-12);
+    whole(&b, &sets["top"], &|p| smooth.offset(p).abs() < 1e-12);
     whole(&b, &sets["bottom"], &|p| p[2] == -0.07);
     whole(&b, &sets["ends"], &|p| p[0] == -0.09 || p[0] == -0.09 + 0.24);
     for (surface, x) in [("rear", -0.09), ("front", -0.09 + 0.24)] {
@@ -168,7 +169,7 @@ fn disk_volume_converges_to_the_annulus_with_the_square_of_the_size() {
 #[test]
 fn elements_run_along_the_rolling_direction_in_slabs() {
     let b = bar(&BAR, &zone(2e-3)).unwrap();
-    let middle = |mesh: &Mesh, hex: &[u32; 8], f: &dyn Fn([f64; 3]) -> f64| {
+    let middle = |mesh: &Mesh, hex: &[u32; 8], f: &dyn Fn(Vector3<f64>) -> f64| {
         points(mesh, hex).map(f).sum::<f64>() / 8.0
     };
     let xs: Vec<f64> = b.hexes.iter().map(|h| middle(&b, h, &|p| p[0])).collect();
@@ -179,7 +180,8 @@ fn elements_run_along_the_rolling_direction_in_slabs() {
     assert!(top > DISK.radius, "the seam is on the side of the contact: {top}");
     // Angle from the far side of the zone's middle, which is at the arc 30 mm.
     let start = 0.03 / DISK.radius - PI;
-    let angle = |p: [f64; 3]| (libm::atan2(p[0], DISK.radius - p[2]) - start).rem_euclid(2.0 * PI);
+    let angle =
+        |p: Vector3<f64>| (libm::atan2(p[0], DISK.radius - p[2]) - start).rem_euclid(2.0 * PI);
     let n = d.hexes.len();
     let angles: Vec<f64> =
         d.hexes[n / 20..n - n / 20].iter().map(|h| middle(&d, h, &angle)).collect();

@@ -5,6 +5,7 @@ use mesh::{
     Bar, Body, Disk, FineZone, Grading, HEX_FACES, Mesh, MeshError, bar, check, disk, layers_below,
     quality,
 };
+use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::f64::consts::PI;
@@ -89,15 +90,15 @@ fn every_inner_face_has_two_elements_and_the_others_lie_on_the_outside() {
     let [d, b] = both(&zone(2e-3));
     let tread = body(&d).surfaces["tread"].smooth.unwrap();
     let top = body(&b).surfaces["top"].smooth.unwrap();
-    type Sides<'a> = Vec<Box<dyn Fn([f64; 3]) -> bool + 'a>>;
+    type Sides<'a> = Vec<Box<dyn Fn(Vector3<f64>) -> bool + 'a>>;
     let of_disk: Sides = vec![
-        Box::new(|p| on(tread.offset(p.into()), 0.0)),
+        Box::new(|p| on(tread.offset(p), 0.0)),
         Box::new(|p| on(libm::hypot(p[0], p[2] - 0.46), 0.10)),
         Box::new(|p| p[1] == 0.03),
         Box::new(|p| p[1] == -0.03),
     ];
     let of_bar: Sides = vec![
-        Box::new(|p| on(top.offset(p.into()), 0.0)),
+        Box::new(|p| on(top.offset(p), 0.0)),
         Box::new(|p| p[2] == -0.07),
         Box::new(|p| p[1] == 0.03),
         Box::new(|p| p[1] == -0.03),
@@ -108,7 +109,7 @@ fn every_inner_face_has_two_elements_and_the_others_lie_on_the_outside() {
         let (outside, most) = boundary(mesh);
         assert_eq!(most, 2);
         for face in outside {
-            let points = face.map(|n| mesh.nodes[n as usize]);
+            let points = face.map(|n| mesh.at(n));
             assert!(sides.iter().any(|side| points.iter().all(|p| side(*p))), "{points:?}");
         }
     }
@@ -117,11 +118,11 @@ fn every_inner_face_has_two_elements_and_the_others_lie_on_the_outside() {
 #[test]
 fn both_meshes_are_their_own_mirror_images_to_the_last_bit() {
     for mesh in both(&zone(1e-3)) {
-        let bits = |p: [f64; 3]| [p[0].to_bits(), (p[1] + 0.0).to_bits(), p[2].to_bits()];
+        let bits = |p: Vector3<f64>| [p[0].to_bits(), (p[1] + 0.0).to_bits(), p[2].to_bits()];
         let place: HashMap<_, usize> =
             mesh.nodes.iter().enumerate().map(|(n, p)| (bits(*p), n)).collect();
         let image: Vec<u32> =
-            mesh.nodes.iter().map(|p| place[&bits([p[0], -p[1], p[2]])] as u32).collect();
+            mesh.nodes.iter().map(|p| place[&bits(Vector3::new(p.x, -p.y, p.z))] as u32).collect();
         let sorted = |mut hex: [u32; 8]| {
             hex.sort_unstable();
             hex
@@ -155,16 +156,15 @@ fn the_surface_of_the_zone_is_that_of_the_tensor_product_node_by_node() {
     for size in [2e-3, 1e-3] {
         let tensor = FineZone { grading: Grading::Tensor, ..zone(size) };
         for (a, b) in both(&zone(size)).iter().zip(&both(&tensor)) {
-            let points = |mesh: &Mesh| -> Vec<[f64; 3]> {
-                body(mesh).node_sets["zone"].iter().map(|&n| mesh.nodes[n as usize]).collect()
+            let points = |mesh: &Mesh| -> Vec<Vector3<f64>> {
+                body(mesh).node_sets["zone"].iter().map(|&n| mesh.at(n)).collect()
             };
             assert!(points(a) == points(b), "{}", body(a).name);
-            let middles = |mesh: &Mesh| -> Vec<[f64; 3]> {
+            let middles = |mesh: &Mesh| -> Vec<Vector3<f64>> {
                 let faces = &body(mesh).surfaces["zone"].faces;
-                let sum = |f: &mesh::Face, i: usize| {
-                    f.nodes.iter().map(|&n| mesh.nodes[n as usize][i]).sum::<f64>()
-                };
-                faces.iter().map(|f| [0, 1, 2].map(|i| sum(f, i) / 4.0)).collect()
+                let sum =
+                    |f: &mesh::Face| f.nodes.iter().map(|&n| mesh.at(n)).sum::<Vector3<f64>>();
+                faces.iter().map(|f| sum(f) / 4.0).collect()
             };
             let (a, b) = (middles(a), middles(b));
             assert_eq!(a.len(), b.len());
@@ -192,10 +192,10 @@ fn nodes_of_tread_top_hub_and_ends_lie_exactly_where_their_names_say() {
         }
     }
     let [d, b] = both(&zone(2e-3));
-    let count = |mesh: &Mesh, test: &dyn Fn([f64; 3]) -> bool| {
+    let count = |mesh: &Mesh, test: &dyn Fn(Vector3<f64>) -> bool| {
         mesh.nodes.iter().filter(|p| test(**p)).count()
     };
-    let hub = |p: [f64; 3]| (libm::hypot(p[0], p[2] - 0.46) - 0.10).abs() < 1e-12;
+    let hub = |p: Vector3<f64>| (libm::hypot(p[0], p[2] - 0.46) - 0.10).abs() < 1e-12;
     assert_eq!(count(&d, &hub), body(&d).node_sets["hub"].len());
     let sets = &body(&b).node_sets;
     assert_eq!(count(&b, &|p| p[2] == -0.07), sets["bottom"].len());
@@ -229,14 +229,14 @@ fn volumes_are_those_of_the_bodies_as_closely_as_by_the_tensor_product() {
 fn contiguous_ranges_of_elements_are_slabs_and_their_nodes_are_near_in_number() {
     for mesh in both(&zone(1e-3)) {
         let n = mesh.hexes.len();
-        let s = |p: [f64; 3]| match mesh.bodies[0].name.as_str() {
+        let s = |p: Vector3<f64>| match mesh.bodies[0].name.as_str() {
             "bar" => p[0],
             // the turn begins opposite to the middle of the zone
             _ => 0.46 * (libm::atan2(p[0], 0.46 - p[2]) - 0.03 / 0.46 + PI).rem_euclid(2.0 * PI),
         };
         let middles: Vec<f64> = mesh.hexes[n / 50..n - n / 50]
             .iter()
-            .map(|h| h.iter().map(|&k| s(mesh.nodes[k as usize])).sum::<f64>() / 8.0)
+            .map(|h| h.iter().map(|&k| s(mesh.at(k))).sum::<f64>() / 8.0)
             .collect();
         // sorted within a thousandth of an element of the zone
         assert!(middles.windows(2).all(|m| m[1] > m[0] - 1e-5));

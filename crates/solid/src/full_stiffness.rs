@@ -3,6 +3,7 @@
 use crate::formulation::Volumetric;
 use crate::gauss::gauss_points;
 use crate::material::Material;
+use nalgebra::Vector3;
 
 /// Tangent stiffness (N/m) of the fully integrated element in the undeformed state; rows and columns run over the
 /// corners, and over x, y, z of each.
@@ -14,16 +15,16 @@ use crate::material::Material;
 ///
 /// with mean dilatation the first term is lambda `V <B_I> <B_J>^T`, `<.>` the mean over the element.
 pub(crate) fn full_stiffness(
-    corners: &[[f64; 3]; 8],
+    corners: &[Vector3<f64>; 8],
     material: &Material,
     volumetric: Volumetric,
 ) -> [[f64; 24]; 24] {
     let (lambda, shear) = (material.lame(), material.shear());
     let mut k = [[0.0; 24]; 24];
-    let mut add = |volumetric: f64, shear: f64, b: &[[f64; 3]; 8]| {
+    let mut add = |volumetric: f64, shear: f64, b: &[Vector3<f64>; 8]| {
         for (row, bi) in b.iter().enumerate() {
             for (column, bj) in b.iter().enumerate() {
-                let isotropic = shear * (bi[0] * bj[0] + bi[1] * bj[1] + bi[2] * bj[2]);
+                let isotropic = shear * bi.dot(bj);
                 for i in 0..3 {
                     for j in 0..3 {
                         k[3 * row + i][3 * column + j] +=
@@ -36,7 +37,7 @@ pub(crate) fn full_stiffness(
     };
     let points = gauss_points(corners);
     let mut volume = 0.0;
-    let mut integral = [[0.0; 3]; 8];
+    let mut integral = [Vector3::zeros(); 8];
     for point in &points {
         let at_point = match volumetric {
             Volumetric::Full => lambda,
@@ -44,7 +45,7 @@ pub(crate) fn full_stiffness(
         };
         add(at_point * point.volume, shear * point.volume, &point.gradient);
         volume += point.volume;
-        for (sum, b) in integral.iter_mut().flatten().zip(point.gradient.iter().flatten()) {
+        for (sum, b) in integral.iter_mut().zip(point.gradient) {
             *sum += point.volume * b;
         }
     }

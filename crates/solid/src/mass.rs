@@ -1,7 +1,7 @@
 //! Lumped mass.
 
-use crate::geometry::{cross, dot};
 use mesh::{HEX_CORNERS as CORNERS, Mesh};
+use nalgebra::{Matrix3, Vector3};
 
 /// Lumped mass of each node by row sums, m_I = integral of rho N_I (kg), exact by 2x2x2 Gauss points.
 ///
@@ -10,7 +10,7 @@ pub fn lumped_mass(mesh: &Mesh, density: &[f64]) -> Vec<f64> {
     let mut mass = vec![0.0; mesh.nodes.len()];
     for (body, rho) in mesh.bodies.iter().zip(density) {
         for hex in &mesh.hexes[body.hexes.clone()] {
-            let x = hex.map(|n| mesh.nodes[n as usize]);
+            let x = hex.map(|n| mesh.at(n));
             for (n, v) in hex.iter().zip(nodal_volumes(&x)) {
                 mass[*n as usize] += rho * v;
             }
@@ -20,24 +20,20 @@ pub fn lumped_mass(mesh: &Mesh, density: &[f64]) -> Vec<f64> {
 }
 
 /// Integral of each corner's shape function over the element with corners `x` (m) (m^3).
-pub(crate) fn nodal_volumes(x: &[[f64; 3]; 8]) -> [f64; 8] {
+pub(crate) fn nodal_volumes(x: &[Vector3<f64>; 8]) -> [f64; 8] {
     let p = 1.0 / 3f64.sqrt();
     let mut volumes = [0.0; 8];
     for point in CORNERS {
         let [r, s, t] = point.map(|c| c * p);
-        let mut jacobian = [[0.0; 3]; 3];
+        let mut jacobian = Matrix3::zeros();
         let mut shape = [0.0; 8];
         for (node, c) in CORNERS.iter().enumerate() {
             let f = [1.0 + r * c[0], 1.0 + s * c[1], 1.0 + t * c[2]];
             shape[node] = f[0] * f[1] * f[2] / 8.0;
-            let d = [c[0] * f[1] * f[2], c[1] * f[0] * f[2], c[2] * f[0] * f[1]];
-            for k in 0..3 {
-                for i in 0..3 {
-                    jacobian[k][i] += d[k] / 8.0 * x[node][i];
-                }
-            }
+            let d = Vector3::new(c[0] * f[1] * f[2], c[1] * f[0] * f[2], c[2] * f[0] * f[1]) / 8.0;
+            jacobian += d * x[node].transpose();
         }
-        let det = dot(jacobian[0], cross(jacobian[1], jacobian[2]));
+        let det = jacobian.determinant();
         for (volume, n) in volumes.iter_mut().zip(shape) {
             *volume += n * det;
         }
@@ -61,7 +57,7 @@ mod tests {
 
     #[test]
     fn a_cube_lumps_an_eighth_to_each_corner() {
-        let x = CORNERS.map(|c| c.map(|v| 0.5 * v));
+        let x = CORNERS.map(|c| 0.5 * Vector3::from(c));
         for v in nodal_volumes(&x) {
             assert!((v - 0.125).abs() < 1e-15);
         }

@@ -13,8 +13,9 @@ use crate::lanes::neon;
 use crate::lanes::x86;
 use crate::lanes::{Four, Level};
 use crate::material::{Material, MaterialError};
-use crate::stress::{deformation, determinant, mean_cauchy, one_point_cauchy};
+use crate::stress::{deformation, mean_cauchy, one_point_cauchy};
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use thiserror::Error;
 
@@ -143,7 +144,7 @@ impl Solid {
                 .checked()
                 .map_err(|source| SolidError::Material { body: body.name.clone(), source })?;
             for element in body.hexes.clone() {
-                let x = mesh.hexes[element].map(|n| mesh.nodes[n as usize]);
+                let x = mesh.hexes[element].map(|n| mesh.at(n));
                 let (volume, _) = crate::mean_gradient(&x);
                 if volume.is_nan() || volume <= 0.0 {
                     let body = body.name.clone();
@@ -171,7 +172,7 @@ impl Solid {
         let constants = materials.iter().map(|m| [64.0, 512.0].map(|w| constants(m, w))).collect();
         let blocks = Blocks::new(mesh, &elements);
         Ok(Self {
-            reference: mesh.nodes.iter().map(|x| Padded::new(*x)).collect(),
+            reference: mesh.nodes.iter().map(|x| Padded::from(*x)).collect(),
             sums: vec![[0.0; 3]; blocks.blocks.len()],
             blocks,
             constants,
@@ -369,10 +370,10 @@ impl Solid {
         displacement: &[Padded],
         body: usize,
         element: usize,
-    ) -> ([[f64; 3]; 8], [[f64; 3]; 8]) {
+    ) -> ([Vector3<f64>; 8], [Vector3<f64>; 8]) {
         let hex = self.blocks.hex(body, element);
-        let x = hex.map(|n| self.reference[n as usize].xyz());
-        (x, hex.map(|n| displacement[n as usize].xyz()))
+        let x = hex.map(|n| self.reference[n as usize].vector());
+        (x, hex.map(|n| displacement[n as usize].vector()))
     }
 
     /// The element with the smallest det F (dimensionless), the index of its body, and that det F: of a one-point
@@ -389,11 +390,11 @@ impl Solid {
                 let det = if self.blocks.is_full(body, element) {
                     let points = gauss_points(&x);
                     let dets =
-                        points.map(|p| determinant(&deformation(&p.displacement_gradient(&u))));
+                        points.map(|p| deformation(&p.displacement_gradient(&u)).determinant());
                     dets.into_iter()
                         .fold(f64::INFINITY, |a, b| if b < a || b.is_nan() { b } else { a })
                 } else {
-                    determinant(&deformation(&displacement_gradient(&x, &u).0))
+                    deformation(&displacement_gradient(&x, &u).0).determinant()
                 };
                 if det < worst.2 || det.is_nan() {
                     worst = (element, body, det);
@@ -410,15 +411,10 @@ impl Solid {
     ///
     /// # Panics
     /// If there is no such element.
-    pub fn centre(&self, element: usize) -> [f64; 3] {
-        let mut c = [0.0; 3];
+    pub fn centre(&self, element: usize) -> Vector3<f64> {
         let body = self.bodies.iter().position(|(range, _)| range.contains(&element));
-        for n in self.blocks.hex(body.unwrap_or(0), element) {
-            for i in 0..3 {
-                c[i] += self.reference[n as usize].0[i] / 8.0;
-            }
-        }
-        c
+        let corners = self.blocks.hex(body.unwrap_or(0), element);
+        corners.iter().map(|&n| self.reference[n as usize].vector() / 8.0).sum()
     }
 }
 

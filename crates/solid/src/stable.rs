@@ -1,10 +1,11 @@
 //! The largest frequency of the assembled system, which sets the stable step 2/omega.
 
 use crate::full_stiffness::{full_stiffness, largest_eigenvalue_bound};
-use crate::linear::AMPLITUDE;
+use crate::linear::{AMPLITUDE, Vector};
 use crate::material::Material;
 use crate::{Element, Elements, Formulation, mean_gradient};
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 
 /// An upper bound of the largest angular frequency (rad/s) of the free elements, hence of the assembly (Irons), and
 /// the index of the element that sets it.
@@ -22,7 +23,7 @@ pub fn element_frequency_bound<'a>(
     let mut worst = (0.0, 0);
     for (body, material) in mesh.bodies.iter().zip(materials) {
         for e in body.hexes.clone() {
-            let x = mesh.hexes[e].map(|n| mesh.nodes[n as usize]);
+            let x = mesh.hexes[e].map(|n| mesh.at(n));
             let mass = lightest_node(&x, material.density);
             let squared = stiffness_bound(&x, material, elements.formulation(e)) / mass;
             if squared > worst.0 {
@@ -46,7 +47,7 @@ pub fn nodal_stiffness_bounds<'a>(
     for (body, material) in mesh.bodies.iter().zip(materials) {
         for e in body.hexes.clone() {
             let hex = mesh.hexes[e];
-            let x = hex.map(|n| mesh.nodes[n as usize]);
+            let x = hex.map(|n| mesh.at(n));
             let bound = stiffness_bound(&x, material, elements.formulation(e));
             hex.iter().for_each(|&n| bounds[n as usize] += bound);
         }
@@ -55,7 +56,7 @@ pub fn nodal_stiffness_bounds<'a>(
 }
 
 /// Upper bound of the largest eigenvalue of an element's stiffness (N/m).
-fn stiffness_bound(x: &[[f64; 3]; 8], material: &Material, formulation: Formulation) -> f64 {
+fn stiffness_bound(x: &[Vector3<f64>; 8], material: &Material, formulation: Formulation) -> f64 {
     match formulation {
         Formulation::OnePoint(element) => one_point_bound(x, material, element),
         Formulation::Full(volumetric) => {
@@ -65,7 +66,7 @@ fn stiffness_bound(x: &[[f64; 3]; 8], material: &Material, formulation: Formulat
 }
 
 /// (lambda + 2G) B_iI B_iI/V + K_h sum |gamma_a|^2 (N/m).
-fn one_point_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> f64 {
+fn one_point_bound(x: &[Vector3<f64>; 8], material: &Material, element: Element) -> f64 {
     let (volume, b) = mean_gradient(x);
     let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
     let stretch = material.p_modulus() * squares / volume;
@@ -77,14 +78,9 @@ fn one_point_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> 
         [1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0],
         [-1.0, 1.0, -1.0, 1.0, 1.0, -1.0, 1.0, -1.0],
     ] {
-        let mut moment = [0.0; 3];
-        for (s, p) in base.iter().zip(x) {
-            for i in 0..3 {
-                moment[i] += s * p[i];
-            }
-        }
+        let moment: Vector3<f64> = base.iter().zip(x).map(|(s, x)| *s * x).sum();
         for (s, b) in base.iter().zip(&b) {
-            let gamma: f64 = s - (0..3).map(|i| b[i] * moment[i]).sum::<f64>() / volume;
+            let gamma: f64 = s - b.dot(&moment) / volume;
             shapes += gamma * gamma;
         }
     }
@@ -92,7 +88,7 @@ fn one_point_bound(x: &[[f64; 3]; 8], material: &Material, element: Element) -> 
 }
 
 /// Smallest lumped mass among the corners of an element (kg).
-fn lightest_node(x: &[[f64; 3]; 8], density: f64) -> f64 {
+fn lightest_node(x: &[Vector3<f64>; 8], density: f64) -> f64 {
     density * crate::mass::nodal_volumes(x).into_iter().fold(f64::INFINITY, f64::min)
 }
 
@@ -121,11 +117,11 @@ pub fn largest_frequency(
         .iter()
         .map(|r| if *r > 0.0 { Padded::new([random(), random(), random()]) } else { Padded::ZERO })
         .collect();
-    let length = norm(&q);
+    let length = inner(&q, &q).sqrt();
     if length == 0.0 {
         return 0.0;
     }
-    scale(&mut q, 1.0 / length);
+    q.scale(1.0 / length);
     let mut previous = vec![Padded::ZERO; n];
     let mut x = vec![Padded::ZERO; n];
     let mut y = vec![Padded::ZERO; n];
@@ -145,21 +141,21 @@ pub fn largest_frequency(
         for (y, r) in y.iter_mut().zip(&root) {
             *y = Padded(y.0.map(|c| c * r / small));
         }
-        let alpha: f64 = y.iter().zip(&q).map(|(a, b)| inner(a, b)).sum();
+        let alpha = inner(&y, &q);
         for ((y, q), p) in y.iter_mut().zip(&q).zip(&previous) {
             for i in 0..3 {
                 y.0[i] -= alpha * q.0[i] + beta * p.0[i];
             }
         }
         alphas.push(alpha);
-        beta = norm(&y);
+        beta = inner(&y, &y).sqrt();
         if beta <= 1e-14 * alpha.abs() {
             break;
         }
         betas.push(beta);
         std::mem::swap(&mut previous, &mut q);
         std::mem::swap(&mut q, &mut y);
-        scale(&mut q, 1.0 / beta);
+        q.scale(1.0 / beta);
     }
     largest_eigenvalue(&alphas, &betas).max(0.0).sqrt()
 }
@@ -199,14 +195,6 @@ fn largest_eigenvalue(diagonal: &[f64], off: &[f64]) -> f64 {
     high
 }
 
-fn inner(a: &Padded, b: &Padded) -> f64 {
-    a.0[0] * b.0[0] + a.0[1] * b.0[1] + a.0[2] * b.0[2]
-}
-
-fn norm(v: &[Padded]) -> f64 {
-    v.iter().map(|a| inner(a, a)).sum::<f64>().sqrt()
-}
-
-fn scale(v: &mut [Padded], factor: f64) {
-    v.iter_mut().for_each(|a| *a = Padded(a.0.map(|c| c * factor)));
+fn inner(a: &[Padded], b: &[Padded]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.vector().dot(&b.vector())).sum()
 }

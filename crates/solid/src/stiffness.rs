@@ -2,15 +2,16 @@
 
 use crate::formulation::{Element, Formulation};
 use crate::full_stiffness::full_stiffness;
-use crate::geometry::{dot, mean_gradient};
+use crate::geometry::mean_gradient;
 use crate::material::Material;
 use mesh::HEX_CORNERS as CORNERS;
+use nalgebra::Vector3;
 
 /// Tangent stiffness (N/m) of a hexahedron in the undeformed state, from its corners `x` (m) in `VTK_HEXAHEDRON` order.
 /// Row and column `3 I + i` belong to component i of corner I. An [`Element`] or a [`crate::Volumetric`] converts into
 /// the formulation. The volume of the element must be positive.
 pub fn element_stiffness(
-    x: &[[f64; 3]; 8],
+    x: &[Vector3<f64>; 8],
     material: &Material,
     formulation: impl Into<Formulation>,
 ) -> [[f64; 24]; 24] {
@@ -29,20 +30,20 @@ pub fn element_stiffness(
 /// K_h = kappa M B_iI B_iI/(24 V), M of [`Material::hourglass_modulus`]: the linear part of the force of [`crate::Solid`]
 /// (Flanagan and Belytschko 1981).
 fn one_point_stiffness(
-    x: &[[f64; 3]; 8],
+    x: &[Vector3<f64>; 8],
     material: &Material,
     element: Element,
 ) -> [[f64; 24]; 24] {
     let (volume, b) = mean_gradient(x);
     let (lambda, shear) = (material.lame() / volume, material.shear() / volume);
-    let squares: f64 = b.iter().map(|b| dot(*b, *b)).sum();
+    let squares: f64 = b.iter().map(|b| b.norm_squared()).sum();
     let hourglass = element.hourglass * material.hourglass_modulus() * squares / (24.0 * volume);
     let shapes = hourglass_shapes(x, volume, &b);
     let mut k = [[0.0; 24]; 24];
     for a in 0..8 {
         for c in 0..8 {
             let modes: f64 = shapes.iter().map(|gamma| gamma[a] * gamma[c]).sum();
-            let isotropic = shear * dot(b[a], b[c]) + hourglass * modes;
+            let isotropic = shear * b[a].dot(&b[c]) + hourglass * modes;
             for i in 0..3 {
                 for j in 0..3 {
                     k[3 * a + i][3 * c + j] =
@@ -56,7 +57,11 @@ fn one_point_stiffness(
 }
 
 /// The shapes gamma_aI of the four hourglass modes (dimensionless), `[mode][corner]`; `b` is dV/dx_I (m^2).
-pub(crate) fn hourglass_shapes(x: &[[f64; 3]; 8], volume: f64, b: &[[f64; 3]; 8]) -> [[f64; 8]; 4] {
+pub(crate) fn hourglass_shapes(
+    x: &[Vector3<f64>; 8],
+    volume: f64,
+    b: &[Vector3<f64>; 8],
+) -> [[f64; 8]; 4] {
     let base = [
         CORNERS.map(|c| c[1] * c[2]),
         CORNERS.map(|c| c[2] * c[0]),
@@ -64,15 +69,10 @@ pub(crate) fn hourglass_shapes(x: &[[f64; 3]; 8], volume: f64, b: &[[f64; 3]; 8]
         CORNERS.map(|c| c[0] * c[1] * c[2]),
     ];
     base.map(|mode| {
-        let mut moment = [0.0; 3];
-        for (sign, x) in mode.iter().zip(x) {
-            for i in 0..3 {
-                moment[i] += sign * x[i] / volume;
-            }
-        }
+        let moment: Vector3<f64> = mode.iter().zip(x).map(|(sign, x)| *sign * x / volume).sum();
         let mut gamma = mode;
         for (gamma, b) in gamma.iter_mut().zip(b) {
-            *gamma -= dot(*b, moment);
+            *gamma -= b.dot(&moment);
         }
         gamma
     })
@@ -124,7 +124,7 @@ mod tests {
         let x = distorted();
         let k = element_stiffness(&x, &STEEL, Element { hourglass: 0.05 });
         let scale = k.iter().flatten().fold(0.0f64, |m, c| m.max(c.abs()));
-        let turn = |p: [f64; 3]| [-p[1], p[0], 0.0];
+        let turn = |p: Vector3<f64>| [-p.y, p.x, 0.0];
         for row in 0..24 {
             let shifted: f64 = (0..8).map(|n| k[row][3 * n + 1]).sum();
             let turned: f64 =

@@ -4,11 +4,11 @@
 use crate::blocks::Batch;
 use crate::formulation::Volumetric;
 use crate::gauss::gauss_points;
-use crate::geometry::{cross, dot};
 use crate::kernel::{gradient, mean_gradient, modes};
 use crate::material::Material;
 use crate::tensor::Matrix;
 use mesh::Padded;
+use nalgebra::{Matrix3, Vector3};
 
 /// Cauchy stress (Pa) of a one-point element, from the gradient that its force uses.
 ///
@@ -29,88 +29,61 @@ pub(crate) fn one_point_cauchy(
     let [x, u] =
         [reference, displacement].map(|a| unsafe { modes::<f64>(a.as_ptr(), batch, lane) });
     let Matrix(h) = gradient(&u, &mean_gradient(&x));
-    cauchy(&h.map(|row| row.0), material)
+    cauchy(&Matrix3::from_fn(|i, j| h[i].0[j]), material)
 }
 
 /// Cauchy stress (Pa) for the displacement gradient H.
-pub(crate) fn cauchy(h: &[[f64; 3]; 3], material: &Material) -> [f64; 6] {
-    let e = green(h);
-    let f = deformation(h);
-    let det = determinant(&f);
-    kirchhoff(&f, &e, material, trace(&e)).map(|c| c / det)
+pub(crate) fn cauchy(h: &Matrix3<f64>, material: &Material) -> [f64; 6] {
+    let (e, f) = (green(h), deformation(h));
+    six(kirchhoff(&f, &e, material, e.trace()) / f.determinant())
 }
 
 /// Components of a symmetric tensor in the order of the result files: xx yy zz xy yz xz.
-const SIX: [(usize, usize); 6] = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)];
-
-/// Deformation gradient F = I + H.
-pub(crate) fn deformation(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut f = *h;
-    for i in 0..3 {
-        f[i][i] += 1.0;
-    }
-    f
+fn six(tensor: Matrix3<f64>) -> [f64; 6] {
+    [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].map(|at| tensor[at])
 }
 
-pub(crate) fn determinant(f: &[[f64; 3]; 3]) -> f64 {
-    dot(f[0], cross(f[1], f[2]))
+/// Deformation gradient F = I + H.
+pub(crate) fn deformation(h: &Matrix3<f64>) -> Matrix3<f64> {
+    h + Matrix3::identity()
 }
 
 /// Mean Cauchy stress (Pa) of a fully integrated element over its deformed volume: sum w F S F^T/sum w det F over the
 /// Gauss points. With [`Volumetric::Mean`], S has the element's mean of tr(E).
 pub(crate) fn mean_cauchy(
-    x: &[[f64; 3]; 8],
-    u: &[[f64; 3]; 8],
+    x: &[Vector3<f64>; 8],
+    u: &[Vector3<f64>; 8],
     material: &Material,
     volumetric: Volumetric,
 ) -> [f64; 6] {
     let points = gauss_points(x).map(|p| (p.volume, p.displacement_gradient(u)));
     let reference: f64 = points.iter().map(|(w, _)| w).sum();
-    let mean = points.iter().map(|(w, h)| w * trace(&green(h))).sum::<f64>() / reference;
-    let mut sum = [0.0; 6];
-    let mut volume = 0.0;
+    let mean = points.iter().map(|(w, h)| w * green(h).trace()).sum::<f64>() / reference;
+    let (mut sum, mut volume) = (Matrix3::zeros(), 0.0);
     for (w, h) in &points {
         let (e, f) = (green(h), deformation(h));
         let dilatation = match volumetric {
-            Volumetric::Full => trace(&e),
+            Volumetric::Full => e.trace(),
             Volumetric::Mean => mean,
         };
-        for (sum, c) in sum.iter_mut().zip(kirchhoff(&f, &e, material, dilatation)) {
-            *sum += w * c;
-        }
-        volume += w * determinant(&f);
+        sum += *w * kirchhoff(&f, &e, material, dilatation);
+        volume += w * f.determinant();
     }
-    sum.map(|c| c / volume)
+    six(sum / volume)
 }
 
 /// Kirchhoff stress F S F^T (Pa) with S = lambda theta I + 2G E, theta the `dilatation`.
 fn kirchhoff(
-    f: &[[f64; 3]; 3],
-    e: &[[f64; 3]; 3],
+    f: &Matrix3<f64>,
+    e: &Matrix3<f64>,
     material: &Material,
     dilatation: f64,
-) -> [f64; 6] {
-    let mut s = e.map(|row| row.map(|c| 2.0 * material.shear() * c));
-    for i in 0..3 {
-        s[i][i] += material.lame() * dilatation;
-    }
-    // P = F S with symmetric S
-    let p = f.map(|row| s.map(|column| dot(row, column)));
-    SIX.map(|(i, j)| dot(p[i], f[j]))
+) -> Matrix3<f64> {
+    let isotropic = Matrix3::from_diagonal_element(material.lame() * dilatation);
+    f * (2.0 * material.shear() * e + isotropic) * f.transpose()
 }
 
 /// E = (H + H^T + H^T H)/2.
-pub(crate) fn green(h: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
-    let mut e = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            let quadratic: f64 = (0..3).map(|k| h[k][i] * h[k][j]).sum();
-            e[i][j] = 0.5 * (h[i][j] + h[j][i] + quadratic);
-        }
-    }
-    e
-}
-
-pub(crate) fn trace(e: &[[f64; 3]; 3]) -> f64 {
-    e[0][0] + e[1][1] + e[2][2]
+pub(crate) fn green(h: &Matrix3<f64>) -> Matrix3<f64> {
+    0.5 * (h + h.transpose() + h.transpose() * h)
 }

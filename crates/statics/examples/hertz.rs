@@ -14,6 +14,7 @@ use contact::{
 };
 use friction::Coulomb;
 use mesh::{Bar, Disk, FineZone, Grading, Padded};
+use nalgebra::Vector3;
 use solid::{Element, Level, Material, Solid, Viscosity};
 use statics::{Axis, Contact, Problem, Supports, Tied};
 use std::time::Instant;
@@ -120,15 +121,15 @@ fn main() {
             }
         };
         let wall = clock.elapsed().as_secs_f64();
-        let (points, pressure): (Vec<[f64; 3]>, Vec<f64>) = match rows {
+        let (points, pressure): (Vec<Vector3<f64>>, Vec<f64>) = match rows {
             Some(_) => {
-                let at = |n: u32| mesh.nodes[n as usize];
+                let at = |n: u32| mesh.at(n);
                 found.pressed.iter().map(|(g, f)| (at(g.node), f / g.area)).unzip()
             }
             None => {
                 let mut table = contact.nodal_table(0);
                 contact.nodal(&mut table);
-                let at = |&n: &u32| mesh.nodes[n as usize];
+                let at = |&n: &u32| mesh.at(n);
                 (table.nodes.iter().map(at).collect(), table.pressure)
             }
         };

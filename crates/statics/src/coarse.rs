@@ -50,21 +50,21 @@ pub(crate) struct Coarse {
 /// Origin and size of a cluster: its rotations move nodes by at most about one.
 #[derive(Clone, Copy, Debug)]
 struct Frame {
-    centre: [f64; 3],
+    centre: Vector3<f64>,
     per_size: f64,
 }
 
 impl Frame {
     /// Arm of a point, in sizes of the cluster.
     #[inline(always)]
-    fn arm(&self, x: &Padded) -> [f64; 3] {
-        [0, 1, 2].map(|i| self.per_size * (x[i] - self.centre[i]))
+    fn arm(&self, x: &Padded) -> Vector3<f64> {
+        self.per_size * (x.vector() - self.centre)
     }
 
     /// Motion `t + w x arm` of a point under `[t, w]`.
     #[inline(always)]
     fn motion(&self, x: &Padded, q: &[f64]) -> Vector3<f64> {
-        let [a, b, c] = self.arm(x);
+        let [a, b, c] = self.arm(x).into();
         Vector3::new(
             q[0] + q[4] * c - q[5] * b,
             q[1] + q[5] * a - q[3] * c,
@@ -75,13 +75,11 @@ impl Frame {
     /// Adds the resultant `[f, arm x f]` of a force.
     #[inline(always)]
     fn collect(&self, x: &Padded, f: &Padded, to: &mut [f64]) {
-        let [a, b, c] = self.arm(x);
-        to[0] += f[0];
-        to[1] += f[1];
-        to[2] += f[2];
-        to[3] += b * f[2] - c * f[1];
-        to[4] += c * f[0] - a * f[2];
-        to[5] += a * f[1] - b * f[0];
+        let moment = self.arm(x).cross(&f.vector());
+        for i in 0..3 {
+            to[i] += f[i];
+            to[3 + i] += moment[i];
+        }
     }
 }
 
@@ -346,15 +344,9 @@ fn clusters(
 }
 
 fn frame(reference: &[Padded], nodes: &[u32]) -> Frame {
-    let mut centre = [0.0; 3];
-    for &n in nodes {
-        (0..3).for_each(|i| centre[i] += reference[n as usize][i] / nodes.len() as f64);
-    }
-    let mut size = 0.0_f64;
-    for &n in nodes {
-        let squares = (0..3).map(|i| (reference[n as usize][i] - centre[i]).powi(2));
-        size = size.max(squares.sum::<f64>().sqrt());
-    }
+    let points = || nodes.iter().map(|&n| reference[n as usize].vector());
+    let centre: Vector3<f64> = points().map(|x| x / nodes.len() as f64).sum();
+    let size = points().map(|x| (x - centre).norm()).fold(0.0, f64::max);
     Frame { centre, per_size: if size > 0.0 { 1.0 / size } else { 0.0 } }
 }
 

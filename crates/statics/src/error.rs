@@ -1,6 +1,7 @@
 //! Why there is no equilibrium, and where.
 
 use crate::problem::Iteration;
+use nalgebra::Vector3;
 
 /// Why no equilibrium was found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -63,7 +64,7 @@ pub enum StaticsError {
         /// Name of its body.
         body: String,
         /// Its reference position (m).
-        position: [f64; 3],
+        position: Vector3<f64>,
     },
     /// An element turned inside out.
     #[error(
@@ -77,7 +78,7 @@ pub enum StaticsError {
         /// Name of its body.
         body: String,
         /// Its centre in the reference configuration (m).
-        centre: [f64; 3],
+        centre: Vector3<f64>,
         /// det F.
         jacobian: f64,
     },
@@ -108,7 +109,7 @@ pub enum StaticsError {
         /// Name of its body.
         body: String,
         /// Its reference position (m).
-        position: [f64; 3],
+        position: Vector3<f64>,
     },
     /// Exact contact of a slave that a support holds too.
     #[error("node {node} is a slave of exact contact, but a support holds it")]
@@ -122,7 +123,7 @@ pub enum StaticsError {
 }
 
 /// A position (m) as people read it.
-fn millimetres(position: &[f64; 3]) -> String {
-    let [x, y, z] = position.map(|c| c * 1e3);
-    format!("({x:.3}, {y:.3}, {z:.3}) mm")
+fn millimetres(position: &Vector3<f64>) -> String {
+    let at = 1e3 * position;
+    format!("({:.3}, {:.3}, {:.3}) mm", at.x, at.y, at.z)
 }

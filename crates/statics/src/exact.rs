@@ -71,7 +71,7 @@ pub(crate) fn solve(
         system.space.set_links(links);
         r.copy_from_slice(&force);
         system.space.reduce(&mut r);
-        at.residual = system.space.norm(&r) / system.scale(&force);
+        at.residual = system.space.residual_norm(&r) / system.scale(&force);
         system.not_inverted(&u)?;
         if !observe(&at) {
             return Err(StaticsError::Interrupted);

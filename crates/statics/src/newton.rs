@@ -54,7 +54,7 @@ pub(crate) fn solve(
     let mut energy = system.force(&u, &mut force, true);
     let mut sums = system.add_spring_force(springs, &u, &mut force);
     loop {
-        at.residual = system.space.norm(&force) / system.scale(&force);
+        at.residual = system.space.residual_norm(&force) / system.scale(&force);
         (at.normal_force, at.closed) = (sums.normal_force, sums.closed);
         system.not_inverted(&u)?;
         if !observe(&at) {
@@ -71,7 +71,7 @@ pub(crate) fn solve(
             let held = springs.are_held();
             let same = !held || release(system, springs, &u, &mut force);
             if same {
-                let facets = system.space.norm(&force) / system.scale(&force);
+                let facets = system.space.residual_norm(&force) / system.scale(&force);
                 let facets = if held { facets } else { 0.0 };
                 let report = NewtonReport {
                     last: at,

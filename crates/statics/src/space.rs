@@ -10,7 +10,7 @@ use crate::coarse::Coarse;
 use crate::link::Link;
 use crate::supports::{Axis, Supports};
 use mesh::{Mesh, Padded};
-use nalgebra::{UnitVector3, Vector3};
+use nalgebra::{Matrix3, UnitVector3, Vector3};
 use rayon::prelude::*;
 use solid::linear::AMPLITUDE;
 
@@ -69,11 +69,11 @@ impl Space {
         mesh: &Mesh,
         reference: &[Padded],
         supports: &Supports,
-        blocks: &[[[f64; 3]; 3]],
+        blocks: &[Matrix3<f64>],
         mut product: impl FnMut(&[Padded], &mut [Padded]),
     ) -> Self {
         let mut diagonal: Vec<Symmetric> =
-            blocks.iter().map(|k| [k[0][0], k[1][1], k[2][2], k[0][1], k[1][2], k[0][2]]).collect();
+            blocks.iter().map(|k| [k.m11, k.m22, k.m33, k.m12, k.m23, k.m13]).collect();
         let tied = supports.tied.iter().flat_map(|t| &t.nodes);
         supports.held.iter().chain(tied).for_each(|&n| diagonal[n as usize] = [0.0; 6]);
         let n = diagonal.len();
@@ -212,7 +212,7 @@ impl Space {
     }
 
     /// Euclidean norm (N) of the reduced residual on the free coordinates.
-    pub(crate) fn norm(&mut self, reduced: &[Padded]) -> f64 {
+    pub(crate) fn residual_norm(&mut self, reduced: &[Padded]) -> f64 {
         self.partial
             .par_iter_mut()
             .zip(reduced.par_chunks(CHUNK).zip(self.diagonal.par_chunks(CHUNK)))

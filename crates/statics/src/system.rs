@@ -8,6 +8,7 @@ use crate::space::{CHUNK, Space};
 use crate::springs::{Pressed, Springs};
 use crate::supports::Axis;
 use mesh::Padded;
+use nalgebra::Vector3;
 use rayon::prelude::*;
 use solid::linear::{ConjugateGradients, LinearSystem, Outcome, Vector, inner, small};
 use solid::{Centrifugal, Solid};
@@ -260,8 +261,8 @@ impl<'a> StaticSystem<'a> {
         self.problem.mesh.bodies[body_of(self.problem.mesh, node)].name.clone()
     }
 
-    fn at(&self, node: usize) -> [f64; 3] {
-        self.reference[node].xyz()
+    fn at(&self, node: usize) -> Vector3<f64> {
+        self.reference[node].vector()
     }
 }
 
@@ -289,7 +290,7 @@ impl LinearSystem<Vec<Padded>> for Tangent<'_> {
 
 /// The node that moves most.
 fn farthest(motion: &[Padded]) -> usize {
-    let square = |v: &Padded| v.xyz().iter().map(|c| c * c).sum::<f64>();
+    let square = |v: &Padded| v.vector().norm_squared();
     (0..motion.len())
         .max_by(|&i, &j| square(&motion[i]).total_cmp(&square(&motion[j])))
         .unwrap_or(0)

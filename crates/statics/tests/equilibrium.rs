@@ -268,7 +268,7 @@ fn a_dome_presses_where_it_touches_and_nowhere_else() {
         assert!((5..60).contains(&count), "{count}");
         assert!(found.pressed.iter().all(|(_, force)| *force >= 0.0));
         let mut gaps = Vec::new();
-        let reference: Vec<Padded> = rig.mesh.nodes.iter().map(|x| Padded::new(*x)).collect();
+        let reference: Vec<Padded> = rig.mesh.nodes.iter().copied().map(Padded::from).collect();
         rig.gaps.at(&reference, &found.displacement, &mut gaps);
         let pressed: Vec<u32> = found.pressed.iter().map(|(gap, _)| gap.node).collect();
         for gap in &gaps {
@@ -430,7 +430,7 @@ fn a_clamped_block_under_two_pulls_stretches_as_hooke_says_under_each() {
     for traction in [1e6, -3e6] {
         let mut force = vec![Padded::ZERO; mesh.nodes.len()];
         for face in &mesh.bodies[0].surfaces["z+"].faces {
-            let areas = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize]));
+            let areas = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.at(n)));
             for (&n, area) in face.nodes.iter().zip(areas) {
                 force[n as usize][2] += traction * area;
             }

@@ -4,6 +4,7 @@
 use crate::reference::sparse::{ElementStiffness, SparseError};
 use crate::reference::{Influence, InfluenceError, Point, SurfaceCompliance};
 use mesh::{Mesh, MeshError, graded_block, graded_line};
+use nalgebra::Vector3;
 use solid::Material;
 use statics::{Axis, Supports, Tied};
 use thiserror::Error;
@@ -119,12 +120,12 @@ impl Block {
         let slack = 1e-6 * self.size;
         let reach = self.reach.map(|r| ((r / self.size - 1e-9).ceil()) * self.size + slack);
         let slice = self.lateral == Lateral::PlaneStrain;
-        let within = |[x, y, _]: [f64; 3]| {
-            let across = if slice { y < slack } else { y.abs() <= reach[1] };
-            x.abs() <= reach[0] && across
+        let within = |at: Vector3<f64>| {
+            let across = if slice { at.y < slack } else { at.y.abs() <= reach[1] };
+            at.x.abs() <= reach[0] && across
         };
         let top = &mesh.bodies[0].surfaces["z+"];
-        let mut points = Point::on_surface(&mesh, top, within, |[x, y, _]| gap(x, y));
+        let mut points = Point::on_surface(&mesh, top, within, |at| gap(at.x, at.y));
         if slice {
             // A point stands for both of its tied nodes.
             points.iter_mut().for_each(|p| p.area *= 2.0);

@@ -1,6 +1,8 @@
 //! Nested dissection of a mesh graph by planes (George 1973): the elimination order that keeps the
 //! Cholesky factor of a three-dimensional body small.
 
+use nalgebra::Vector3;
+
 /// Parts of at most this many vertices are not divided further.
 const LEAF: usize = 24;
 
@@ -61,7 +63,7 @@ impl Graph {
 /// Each part is divided by the coordinate plane near its middle that needs the fewest separating
 /// vertices; both halves come before their separator. Vertices of equal coordinate are ordered by index, so that the
 /// order depends on the input alone.
-pub(crate) fn nested_dissection(graph: &Graph, at: &[[f64; 3]], part: Vec<u32>) -> Vec<u32> {
+pub(crate) fn nested_dissection(graph: &Graph, at: &[Vector3<f64>], part: Vec<u32>) -> Vec<u32> {
     let mut order = Vec::with_capacity(part.len());
     let mut halves = Halves { of: vec![0; at.len()], stamp: 0 };
     dissect(graph, at, part, &mut halves, &mut order);
@@ -78,7 +80,7 @@ struct Halves {
 /// Appends the elimination order of `part` to `order`.
 fn dissect(
     graph: &Graph,
-    at: &[[f64; 3]],
+    at: &[Vector3<f64>],
     part: Vec<u32>,
     halves: &mut Halves,
     order: &mut Vec<u32>,
@@ -108,7 +110,7 @@ fn dissect(
 /// The two halves and the separator of a cut across `axis`. The half from which the separator is taken comes first.
 fn cut(
     graph: &Graph,
-    at: &[[f64; 3]],
+    at: &[Vector3<f64>],
     part: &[u32],
     axis: usize,
     halves: &mut Halves,

@@ -2,7 +2,9 @@
 
 use crate::reference::SurfaceCompliance;
 use faer::Mat;
+use mesh::geometry::tangential;
 use mesh::{Mesh, Surface};
+use nalgebra::{UnitVector3, Vector3};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
@@ -12,7 +14,7 @@ pub struct Point {
     /// Its node (mesh index).
     pub node: u32,
     /// Its reference position, x, y, z (m).
-    pub at: [f64; 3],
+    pub at: Vector3<f64>,
     /// Nodal area: a force over it is a traction (m^2).
     pub area: f64,
     /// Distance of the undeformed surfaces along the normal (m).
@@ -29,18 +31,18 @@ impl Point {
     pub fn on_surface(
         mesh: &Mesh,
         surface: &Surface,
-        within: impl Fn([f64; 3]) -> bool,
-        gap: impl Fn([f64; 3]) -> f64,
+        within: impl Fn(Vector3<f64>) -> bool,
+        gap: impl Fn(Vector3<f64>) -> f64,
     ) -> Vec<Self> {
         let mut areas = BTreeMap::new();
         for face in &surface.faces {
-            let shares = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize]));
+            let shares = mesh::quad_corner_areas(&face.nodes.map(|n| mesh.at(n)));
             for (node, share) in face.nodes.iter().zip(shares) {
                 *areas.entry(*node).or_insert(0.0) += share;
             }
         }
         let point = |(node, area): (u32, f64)| {
-            let at = mesh.nodes[node as usize];
+            let at = mesh.at(node);
             within(at).then(|| Self { node, at, area, gap: gap(at) })
         };
         areas.into_iter().filter_map(point).collect()
@@ -282,7 +284,7 @@ struct Projection {
     /// Nodes of the face (indices in the master's compliance) and their shape functions.
     weights: [(usize, f64); 4],
     /// t1, t2, n.
-    frame: [[f64; 3]; 3],
+    frame: [UnitVector3<f64>; 3],
 }
 
 impl Projection {
@@ -292,18 +294,17 @@ impl Projection {
         surface: &Surface,
         mesh: &Mesh,
     ) -> Result<Self, InfluenceError> {
-        let n = surface.smooth.map_or([0.0, 0.0, 1.0], |s| (*s.normal(point.at.into())).into());
-        let n = if n[2] < 0.0 { n.map(|c| -c) } else { n };
-        let t1 = unit([1.0 - n[0] * n[0], -n[0] * n[1], -n[0] * n[2]]);
-        let t2 =
-            [n[1] * t1[2] - n[2] * t1[1], n[2] * t1[0] - n[0] * t1[2], n[0] * t1[1] - n[1] * t1[0]];
+        let n = surface.smooth.map_or(Vector3::z_axis(), |s| s.normal(point.at));
+        let n = if n.z < 0.0 { -n } else { n };
+        let t1 = UnitVector3::new_normalize(tangential(Vector3::x(), n));
+        let t2 = UnitVector3::new_unchecked(n.cross(&t1));
         let frame = [t1, t2, n];
         // The projection lies where the normal through the node meets the face: node and projection have the same
         // coordinates along the tangents.
-        let tangential = |x: [f64; 3]| [dot(t1, x), dot(t2, x)];
-        let target = tangential(point.at);
+        let along_tangents = |x: Vector3<f64>| [t1.dot(&x), t2.dot(&x)];
+        let target = along_tangents(point.at);
         for face in &surface.faces {
-            let corners = face.nodes.map(|m| tangential(mesh.nodes[m as usize]));
+            let corners = face.nodes.map(|m| along_tangents(mesh.at(m)));
             let Some(shape) = inside(corners, target) else { continue };
             let mut weights = [(0, 0.0); 4];
             for (k, node) in face.nodes.iter().enumerate() {
@@ -318,7 +319,7 @@ impl Projection {
             }
             return Ok(Self { weights, frame });
         }
-        let [x, y, _] = point.at;
+        let [x, y, _] = point.at.into();
         Err(InfluenceError::NoFace { node: point.node, x, y })
     }
 }
@@ -359,13 +360,4 @@ fn inside(corners: [[f64; 2]; 4], target: [f64; 2]) -> Option<[f64; 4]> {
     }
     let within = xi[0].abs() <= EDGE && xi[1].abs() <= EDGE;
     within.then(|| SIGNS.map(|s| 0.25 * (1.0 + s[0] * xi[0]) * (1.0 + s[1] * xi[1])))
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: [f64; 3]) -> [f64; 3] {
-    let length = dot(a, a).sqrt();
-    a.map(|c| c / length)
 }

@@ -34,7 +34,7 @@ pub fn ellipsoid(influence: &Influence, pressed: &Pressed) -> Option<Ellipsoid> 
     let mut right = Mat::<f64>::zeros(unknowns, 1);
     let mut used = 0;
     for (p, point) in pressure.iter().zip(points).filter(|(p, _)| **p > FITTED * peak) {
-        let [x, y, _] = point.at.map(|c| c / scale);
+        let [x, y, _] = (point.at / scale).into();
         let row = [1.0, -x * x, -y * y];
         for i in 0..unknowns {
             right[(i, 0)] += row[i] * (p / peak).powi(2);

@@ -166,7 +166,7 @@ impl<'a> Rolling<'a> {
         let mut has_downstream = vec![false; upstream.len()];
         upstream.iter().filter(|&&u| u != NONE).for_each(|&u| has_downstream[u] = true);
         if let Some(&i) = contact.iter().find(|&&i| upstream[i] == NONE || !has_downstream[i]) {
-            let [x, y, _] = influence.points[i].at;
+            let [x, y, _] = influence.points[i].at.into();
             return Err(RollingError::Border { x, y });
         }
         let m = contact.len();
@@ -422,7 +422,7 @@ fn upstream(influence: &Influence) -> Result<(Vec<usize>, f64), RollingError> {
     });
     let mut next = vec![NONE; points.len()];
     for pair in order.windows(2) {
-        let ([x, y, _], [x_up, y_up, _]) = (at(pair[0]), at(pair[1]));
+        let [[x, y, _], [x_up, y_up, _]] = [pair[0], pair[1]].map(|i| at(i).into());
         if (y_up - y).abs() <= 2.0 * SAME * pitch {
             if (x_up - x - pitch).abs() > SAME * pitch {
                 return Err(RollingError::Grid { x, y });

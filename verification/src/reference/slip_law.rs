@@ -31,7 +31,7 @@ impl Patch<'_> {
     fn places(&self, time: f64) -> Vec<NodeConditions> {
         let place = |(&i, normal): (&usize, &f64)| {
             let Point { at, area, .. } = self.points[i];
-            NodeConditions { position: at, time, pressure: normal / area }
+            NodeConditions { position: at.into(), time, pressure: normal / area }
         };
         self.contact.iter().zip(self.normal).map(place).collect()
     }

@@ -12,13 +12,15 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, MatMut, MatRef, Par, Side, Spec};
 use mesh::Mesh;
+use nalgebra::Vector3;
 use solid::Material;
 use statics::{Axis, Supports};
 use thiserror::Error;
 
 /// Stiffness of one hexahedron with given corners (m) and material, about the undeformed state
 /// (N/m); row `3 node + axis`, and columns alike. For example [`solid::element_stiffness`] with an element's options.
-pub type ElementStiffness<'a> = dyn Fn(&[[f64; 3]; 8], &Material) -> [[f64; 24]; 24] + Sync + 'a;
+pub type ElementStiffness<'a> =
+    dyn Fn(&[Vector3<f64>; 8], &Material) -> [[f64; 24]; 24] + Sync + 'a;
 
 /// No unknown: the node is held in that direction.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -250,7 +252,7 @@ impl StiffnessMatrix {
         let mut matrix = Self::pattern(unknowns);
         for (body, material) in mesh.bodies.iter().zip(materials) {
             for hex in &mesh.hexes[body.hexes.clone()] {
-                let k = element(&hex.map(|n| mesh.nodes[n as usize]), material);
+                let k = element(&hex.map(|n| mesh.at(n)), material);
                 let dof = hex.map(|n| unknowns.of[n as usize]);
                 for (column, entries) in k.iter().enumerate() {
                     let j = dof[column / 3][column % 3];

@@ -1,12 +1,13 @@
 //! Shared problems. What they give beside closed forms and CONTACT is verified in the problems of this package.
 #![allow(dead_code)]
 
+use nalgebra::Vector3;
 use solid::{Element, Material, element_stiffness};
 use verification::reference::{Block, Influence, Lateral};
 
 pub const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 
-pub fn element(x: &[[f64; 3]; 8], m: &Material) -> [[f64; 24]; 24] {
+pub fn element(x: &[Vector3<f64>; 8], m: &Material) -> [[f64; 24]; 24] {
     element_stiffness(x, m, Element { hourglass: 0.05 })
 }
 

@@ -26,7 +26,7 @@ fn facets_of_a_rotated_cylinder_give_gap_and_normal_of_the_circle() {
     let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
     let angle = 0.7;
     let nodes = trace.gather(&mesh.nodes).into_iter();
-    let position: Vec<Padded> = nodes.map(|x| turned(x.into(), angle).into()).collect();
+    let position: Vec<Padded> = nodes.map(|x| turned(x, angle).into()).collect();
     let positions = Positions(&position);
     let mut worst_facet = 0.0_f64;
     for i in 0..200 {
@@ -97,7 +97,7 @@ fn normals_beyond_facets_are_the_circles_whichever_corner_comes_first_and_howeve
         faces.faces.iter_mut().for_each(|face| face.nodes.rotate_left(turn));
         let (trace, surface) = ContactSurface::alone(&mesh, &faces, STEEL).unwrap();
         let position: Vec<Padded> =
-            trace.gather(&mesh.nodes).into_iter().map(Padded::new).collect();
+            trace.gather(&mesh.nodes).into_iter().map(Padded::from).collect();
         for i in 0..200 {
             let (s, c) = libm::sincos((f64::from(i) / 199.0 - 0.5) * 0.8 * ARC);
             let r = RADIUS + 1e-4;

@@ -80,7 +80,7 @@ impl Masses {
         let (lower, second) = plate([-9e-3, -6e-3], [9e-3, 6e-3], [17, 11], 0.0, 1e-3, true);
         let count = upper.nodes.len();
         let (mesh, second) = together(upper, lower, second);
-        let reference: Vec<Padded> = mesh.nodes.iter().map(|&x| Padded::new(x)).collect();
+        let reference: Vec<Padded> = mesh.nodes.iter().copied().map(Padded::from).collect();
         // not yet touching: whether what just touches is closed would be decided by round-off
         let apart = |(i, x): (usize, &Padded)| {
             let lift = if i < count { 1e-7 } else { 0.0 };

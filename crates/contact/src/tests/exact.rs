@@ -46,7 +46,7 @@ impl Masses {
         Self {
             contact,
             upper: count,
-            reference: mesh.nodes.iter().map(|&x| Padded::new(x)).collect(),
+            reference: mesh.nodes.iter().copied().map(Padded::from).collect(),
             displacement: vec![Padded::ZERO; n],
             velocity: vec![Padded::ZERO; n],
             inverse_mass: (0..n).map(|i| 1e5 * (1.0 + noise(i))).collect(),

@@ -45,12 +45,8 @@ impl Bodies {
             inverse_mass: Vec::new(),
         };
         bodies.trace = bodies.contact(0, Rows::NodeToFace, Coulomb { mu: 0.0 }).trace().clone();
-        bodies.position = bodies
-            .trace
-            .nodes()
-            .iter()
-            .map(|&n| Padded::new(bodies.mesh.nodes[n as usize]))
-            .collect();
+        bodies.position =
+            bodies.trace.nodes().iter().map(|&n| Padded::from(bodies.mesh.at(n))).collect();
         let n = bodies.position.len();
         bodies.free = vec![Padded::ZERO; n];
         let noise =

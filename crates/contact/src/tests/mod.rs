@@ -58,7 +58,7 @@ impl Rig {
         Self {
             contact,
             upper: count,
-            reference: mesh.nodes.iter().map(|&x| Padded::new(x)).collect(),
+            reference: mesh.nodes.iter().copied().map(Padded::from).collect(),
             displacement: vec![Padded::ZERO; n],
             velocity: vec![Padded::ZERO; n],
             inverse_mass: vec![1e3; n],

@@ -4,7 +4,6 @@ use crate::check::PostError;
 use crate::check::basis::Basis;
 use crate::check::frames::{ContactHistory, Frame};
 use crate::check::surface::Surface;
-use crate::check::vector::norm;
 
 /// Number of equally spaced places from x = -a to a, relative to the disk's axis; a is Hertz's half axis.
 pub(crate) const PLACES: usize = 141;
@@ -70,8 +69,8 @@ impl CentreLine {
             let value = |place: usize| interpolate(&at, self.place(place), |i| of(nodes[i].1));
             (0..PLACES).map(value).collect()
         };
-        let slip = row(&|node| norm(frame.slip_velocity[node]));
-        let shear = row(&|node| norm(frame.shear[node]));
+        let slip = row(&|node| frame.slip_velocity[node].norm());
+        let shear = row(&|node| frame.shear[node].norm());
         self.times.push(frame.time);
         self.slip.push(slip);
         self.shear.push(shear);

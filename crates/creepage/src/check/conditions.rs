@@ -2,8 +2,8 @@
 
 use crate::check::basis::{Basis, Bound};
 use crate::check::law::Law;
-use crate::check::vector::{Vec3, angle, dot, negative, norm};
 pub use contact::patch::IN_CONTACT;
+use nalgebra::Vector3;
 
 /// A node is in adhesion where its shear is below this share of the bound mu p_n.
 pub const IN_ADHESION: f64 = 0.98;
@@ -18,9 +18,9 @@ pub(crate) struct Node {
     /// p_n (Pa).
     pub pressure: f64,
     /// p_tau on the node's own surface (Pa).
-    pub shear: Vec3,
+    pub shear: Vector3<f64>,
     /// s, of the node relative to the other surface (m/s).
-    pub slip: Vec3,
+    pub slip: Vector3<f64>,
     /// The coefficient that the algorithm used.
     pub mu_used: Option<f64>,
     /// The law's coefficient recomputed from the records.
@@ -78,7 +78,7 @@ impl Judge {
     }
 
     pub fn judge(&self, node: &Node) -> Judged {
-        let (speed, shear) = (norm(node.slip), norm(node.shear));
+        let (speed, shear) = (node.slip.norm(), node.shear.norm());
         let ratio = shear / node.pressure;
         let slips = speed > self.threshold;
         // of a law with state the coefficient depends on more than the slip speed
@@ -94,7 +94,7 @@ impl Judge {
         let error = |mu: f64| if mu > 0.0 { ratio / mu - 1.0 } else { ratio };
         let law_error = mu_law.filter(|_| slips).map(error);
         let law_error_own = node.mu_used.filter(|_| slips).map(error);
-        let direction = (slips && shear > 0.0).then(|| angle(node.shear, negative(node.slip)));
+        let direction = (slips && shear > 0.0).then(|| angle(node.shear, -node.slip));
         let adheres = bound.is_some_and(|mu| ratio < IN_ADHESION * mu);
         let off_bound = bound.is_some_and(|mu| slips && error(mu).abs() > LAW_TOLERANCE);
         let off_direction = direction.is_some_and(|angle| angle > DIRECTION_TOLERANCE);
@@ -114,8 +114,13 @@ impl Judge {
                 .filter(|_| self.bound == Bound::Law)
                 .zip(mu_law)
                 .map(|(law, mu)| law.distance(speed, mu, ratio, self.slip_speed)),
-            power: -dot(node.shear, node.slip),
+            power: -node.shear.dot(&node.slip),
             violates: off_bound || off_direction || (adheres && slips),
         }
     }
+}
+
+/// The angle between `a` and `b` in degrees, accurate near 0 and 180 where the arc cosine is not.
+fn angle(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
+    libm::atan2(a.cross(&b).norm(), a.dot(&b)).to_degrees()
 }

@@ -12,10 +12,10 @@ use crate::check::projection::Pair;
 use crate::check::replay::{Allowed, Replay};
 use crate::check::result::View;
 use crate::check::surface::Surface;
-use crate::check::vector::{Vec3, axpy, norm};
 use contact::mesh_mode::MeshMode;
 use contact::patch::PatchShape;
 use friction::NodeConditions;
+use nalgebra::Vector3;
 use output::layout::Pairing;
 
 /// The tangential conditions on a view in one pairing.
@@ -34,7 +34,7 @@ struct Record {
     /// Whether each node is in contact.
     contact: Vec<bool>,
     /// The pair's slip velocity (m/s) of nodes in contact in this record or the one before.
-    pair_slip: Vec<Option<Vec3>>,
+    pair_slip: Vec<Option<Vector3<f64>>>,
     /// The coefficients that the law allows at each node; empty where the law cannot be followed.
     allowed: Vec<Option<Allowed>>,
 }
@@ -298,13 +298,12 @@ fn recomputed_mu(
     surface: &Surface,
     frame: &Frame,
     allowed: &[Option<Allowed>],
-    slip: Vec3,
+    slip: Vector3<f64>,
     row: usize,
 ) -> Option<f64> {
-    let moved = frame.motion.as_ref().map_or([0.0; 3], |[displacement, _]| displacement[row]);
-    let position = axpy(surface.points[row], 1.0, moved);
+    let position = frame.position(surface, row).into();
     let at = NodeConditions { position, time: frame.time, pressure: frame.pressure[row] };
-    replay.at_once(norm(slip), &at).or_else(|| {
+    replay.at_once(slip.norm(), &at).or_else(|| {
         let (used, allowed) = (frame.mu.as_ref()?[row], allowed[row]?);
         Some(if allowed.known { allowed.nearest(used) } else { used })
     })
@@ -318,7 +317,7 @@ fn pair_slips(
     records: &[Record],
     first: usize,
     lost: &mut usize,
-) -> Vec<Vec<Option<Vec3>>> {
+) -> Vec<Vec<Option<Vector3<f64>>>> {
     let of_record = |k: usize| {
         let contact = &records[k].contact;
         let mut slips = vec![None; contact.len()];
@@ -387,7 +386,7 @@ fn take_side(
         // without a law the largest coefficient used is all that is known of the cone
         let used = frame.mu.as_ref().map(|mu| mu[row]);
         if let Some(mu) = judge.law.map(|law| law.mu_static()).or(used) {
-            side.add_cone(row, time, area, excess(norm(frame.shear[row]), mu * pressure));
+            side.add_cone(row, time, area, excess(frame.shear[row].norm(), mu * pressure));
         }
         if let (Some(used), Some(law)) = (used, allowed.get(row)) {
             side.mu.add(row, time, area, used, *law);
@@ -413,7 +412,7 @@ mod tests {
     #[test]
     fn a_jump_by_a_column_of_elements_is_a_move_of_the_mesh_and_a_step_of_rolling_is_none() {
         let at = |x: f64| Frame {
-            motion: Some([vec![[x, 0.0, 0.0]; 4], vec![[0.0; 3]; 4]]),
+            motion: Some([vec![x * Vector3::x(); 4], vec![Vector3::zeros(); 4]]),
             ..Frame::default()
         };
         // nodes bear from a quarter of an element of 1 mm to all of it

@@ -340,7 +340,7 @@ impl Evaluation<'_> {
             side: view,
             pairing,
             node,
-            position: node.map(|node| self.history.surface.points[node]),
+            position: node.map(|node| self.history.surface.points[node].into()),
             time,
             value: Some(value).filter(|value| value.is_finite()),
             mu_used: detail(Detail::MuUsedWorst),

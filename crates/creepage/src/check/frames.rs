@@ -3,7 +3,7 @@
 
 use crate::check::PostError;
 use crate::check::surface::Surface;
-use crate::check::vector::Vec3;
+use nalgebra::Vector3;
 use output::layout::{BODY_NAMES, CONTACT, FOLLOWS, MORTAR, Pairing, attribute};
 use output::{FieldSpec, GridFile, HistoryFile, OutputError};
 use std::ops::Range;
@@ -23,9 +23,9 @@ pub struct Frame {
     /// Of penalty contact in two passes, the part of the pressure that the node's own pass carries (Pa).
     pub pass_pressure: Option<Vec<f64>>,
     /// Shear traction on the node's own surface (Pa).
-    pub shear: Vec<Vec3>,
+    pub shear: Vec<Vector3<f64>>,
     /// Velocity of the node's own surface relative to the other (m/s).
-    pub slip_velocity: Vec<Vec3>,
+    pub slip_velocity: Vec<Vector3<f64>>,
     /// Gap (m), negative when penetrating.
     pub gap: Option<Vec<f64>>,
     /// Coefficient of friction that the algorithm used.
@@ -33,7 +33,21 @@ pub struct Frame {
     /// 0 open, 1 stick, 2 slip.
     pub state: Option<Vec<u8>>,
     /// Displacement (m) and velocity (m/s).
-    pub motion: Option<[Vec<Vec3>; 2]>,
+    pub motion: Option<[Vec<Vector3<f64>>; 2]>,
+}
+
+impl Frame {
+    /// Where a node of its `surface` is (m), displaced where the record has displacements.
+    pub(crate) fn position(&self, surface: &Surface, row: usize) -> Vector3<f64> {
+        let moved =
+            self.motion.as_ref().map_or(Vector3::zeros(), |[displacement, _]| displacement[row]);
+        surface.points[row] + moved
+    }
+}
+
+/// Vectors from their components in a file, one vector after the other.
+pub(crate) fn vectors(components: &[f64]) -> Vec<Vector3<f64>> {
+    components.as_chunks().0.iter().copied().map(Vector3::from).collect()
 }
 
 /// A contact history: its mesh, times and attributes; the records stay in the file.
@@ -309,7 +323,7 @@ struct Reading<'a> {
 }
 
 /// Displacement and velocity of the nodes, where the file has them.
-type Motion = Option<[Vec<Vec3>; 2]>;
+type Motion = Option<[Vec<Vector3<f64>>; 2]>;
 
 impl Reading<'_> {
     /// Records without their motion.
@@ -355,8 +369,8 @@ impl Reading<'_> {
         &values[k * count..(k + 1) * count]
     }
 
-    fn vectors(&self, values: &[f64], k: usize) -> Vec<Vec3> {
-        self.nodes(values, k, 3).as_chunks::<3>().0.to_vec()
+    fn vectors(&self, values: &[f64], k: usize) -> Vec<Vector3<f64>> {
+        vectors(self.nodes(values, k, 3))
     }
 
     /// A field over `records`, one record after the other.

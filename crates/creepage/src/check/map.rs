@@ -50,8 +50,9 @@ impl MapWriter {
             .collect();
         let about = "0 none or no contact, 1 the contact conditions are violated";
         fields.push(FieldSpec::label("violates", "1", about));
+        let points: Vec<[f64; 3]> = surface.points.iter().map(|&x| x.into()).collect();
         let grid = GridSpec {
-            points: &surface.points,
+            points: &points,
             cells: Cells::Quads(&surface.faces),
             constant: &[StaticField::body(&surface.face_body)],
         };

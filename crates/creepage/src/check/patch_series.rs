@@ -3,8 +3,9 @@
 use crate::check::conditions::IN_CONTACT;
 use crate::check::frames::Frame;
 use crate::check::surface::Surface;
-use crate::check::vector::{Vec3, axpy, cross, dot, norm, sub};
 use contact::patch::{self, PatchShape};
+use mesh::geometry::vector_area;
+use nalgebra::Vector3;
 use output::summary::Mean;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -146,28 +147,25 @@ pub(crate) fn measure(
 ) -> PatchRow {
     let of_body = |&row: &usize| surface.body[row] == body;
     let rows: Vec<usize> = (0..surface.points.len()).filter(of_body).collect();
-    let position = |row: usize| match &frame.motion {
-        Some([displacement, _]) => axpy(surface.points[row], 1.0, displacement[row]),
-        None => surface.points[row],
-    };
-    let points: Vec<Vec3> = rows.iter().map(|&row| position(row)).collect();
+    let position = |row: usize| frame.position(surface, row);
+    let points: Vec<Vector3<f64>> = rows.iter().map(|&row| position(row)).collect();
     let pressure: Vec<f64> = rows.iter().map(|&row| frame.pressure[row]).collect();
     let fit = patch::fit(shape, &points, &pressure);
     let normals = normals(surface, frame, body, position);
-    let mut force = [0.0; 3];
+    let mut force = Vector3::zeros();
     let (mut area, mut stick, mut slip, mut power) = (0.0, 0.0, 0.0, 0.0);
     let (mut peak, mut peak_shear) = (0.0f64, 0.0f64);
     for &row in &rows {
         let (p, a, shear) = (frame.pressure[row], surface.area[row], frame.shear[row]);
         let n = normals[row];
-        let size = norm(n);
+        let size = n.norm();
         if size > 0.0 {
-            force = axpy(force, -p * a / size, n);
+            force -= p * a / size * n;
         }
-        force = axpy(force, a, shear);
-        power -= a * dot(shear, frame.slip_velocity[row]);
+        force += a * shear;
+        power -= a * shear.dot(&frame.slip_velocity[row]);
         peak = peak.max(p);
-        peak_shear = peak_shear.max(norm(shear));
+        peak_shear = peak_shear.max(shear.norm());
         if p > IN_CONTACT * p0 {
             area += a;
             match frame.state.as_ref().map(|state| state[row]) {
@@ -178,7 +176,7 @@ pub(crate) fn measure(
         }
     }
     let towards_disk = if body == 0 { 1.0 } else { -1.0 };
-    let [fx, fy, fz] = force.map(|f| f * towards_disk);
+    let [fx, fy, fz] = (force * towards_disk).into();
     let share = |part: f64| if frame.state.is_some() { part / area } else { f64::NAN };
     let [a, b, xc, top, of_fit] = fit.map_or([f64::NAN; 5], |f| [f.a, f.b, f.xc, f.p0, f.area]);
     let (stick, slip) = (share(stick), share(slip));
@@ -192,17 +190,16 @@ fn normals(
     surface: &Surface,
     frame: &Frame,
     body: u8,
-    position: impl Fn(usize) -> Vec3,
-) -> Vec<Vec3> {
-    let mut normals = vec![[0.0; 3]; surface.points.len()];
+    position: impl Fn(usize) -> Vector3<f64>,
+) -> Vec<Vector3<f64>> {
+    let mut normals = vec![Vector3::zeros(); surface.points.len()];
     for (face, &label) in surface.faces.iter().zip(&surface.face_body) {
         let corners = face.map(|node| node as usize);
         if label != body || corners.iter().all(|&node| frame.pressure[node] == 0.0) {
             continue;
         }
-        let [a, b, c, d] = corners.map(&position);
-        let area = cross(sub(c, a), sub(d, b));
-        corners.iter().for_each(|&node| normals[node] = axpy(normals[node], 0.5, area));
+        let area = vector_area(corners.map(&position));
+        corners.iter().for_each(|&node| normals[node] += area);
     }
     normals
 }

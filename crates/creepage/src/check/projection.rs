@@ -2,7 +2,8 @@
 //! and velocities alone: nothing of a solver's contact algorithm is used.
 
 use crate::check::surface::Surface;
-use crate::check::vector::{Vec3, axpy, cross, dot, negative, norm, sub};
+use mesh::geometry::{adjugate, direction};
+use nalgebra::{Matrix2, UnitVector3, Vector2, Vector3};
 use std::collections::HashMap;
 
 /// How far (in face coordinates, -1 to 1) a projection may lie beyond an edge and still count as on the face.
@@ -40,7 +41,7 @@ impl Pair {
             .collect();
         let edge = |&face: &u32| {
             let corners = surface.faces[face as usize].map(|n| surface.points[n as usize]);
-            norm(sub(corners[2], corners[0])).max(norm(sub(corners[3], corners[1])))
+            (corners[2] - corners[0]).norm().max((corners[3] - corners[1]).norm())
         };
         let cell = masters.iter().map(edge).fold(f64::MIN_POSITIVE, f64::max);
         let mut around = vec![Vec::new(); surface.points.len()];
@@ -64,9 +65,9 @@ impl Pair {
     pub fn slip(
         &mut self,
         surface: &Surface,
-        [displacement, velocity]: &[Vec<Vec3>; 2],
+        [displacement, velocity]: &[Vec<Vector3<f64>>; 2],
         nodes: &[usize],
-    ) -> Vec<Option<Vec3>> {
+    ) -> Vec<Option<Vector3<f64>>> {
         let projections = self.projections(surface, displacement, nodes);
         let mut normals = vec![None; surface.points.len()];
         let slip = |(&node, projection): (&usize, Option<(u32, Projection)>)| {
@@ -75,47 +76,51 @@ impl Pair {
             let corners = surface.faces[face as usize];
             for (i, corner) in corners.into_iter().enumerate() {
                 let v = velocity[corner as usize];
-                relative = axpy(relative, -projection.weights[i], v);
-                relative = axpy(relative, dot(projection.normal, v), projection.levers[i]);
+                relative -= projection.weights[i] * v;
+                relative += projection.normal.dot(&v) * projection.levers[i];
             }
-            let mut mean = [0.0; 3];
+            let mut mean = Vector3::zeros();
             for (weight, corner) in projection.weights.into_iter().zip(corners) {
                 let normal = normals[corner as usize]
                     .get_or_insert_with(|| self.normal(surface, displacement, corner));
-                mean = axpy(mean, weight, *normal);
+                mean += weight * **normal;
             }
-            let along = dot(relative, mean) / dot(mean, mean);
-            Some(axpy(relative, -along, mean))
+            Some(relative - relative.dot(&mean) / mean.norm_squared() * mean)
         };
         nodes.iter().zip(projections).map(slip).collect()
     }
 
     /// The mean of the unit normals that the master faces around a node have there.
-    fn normal(&self, surface: &Surface, displacement: &[Vec3], node: u32) -> Vec3 {
-        let at = |node: u32| axpy(surface.points[node as usize], 1.0, displacement[node as usize]);
+    fn normal(
+        &self,
+        surface: &Surface,
+        displacement: &[Vector3<f64>],
+        node: u32,
+    ) -> UnitVector3<f64> {
+        let at = |node: u32| surface.points[node as usize] + displacement[node as usize];
         let around = self.around[node as usize].iter();
-        let sum = around.fold([0.0; 3], |sum, &face| {
+        let directions = around.map(|&face| {
             let corners = surface.faces[face as usize];
             let corner = corners.iter().position(|&n| n == node).unwrap_or(0);
-            let edge = |ahead: usize| sub(at(corners[(corner + ahead) % 4]), at(node));
-            let normal = cross(edge(1), edge(3));
-            axpy(sum, 1.0 / norm(normal), normal)
+            let edge = |ahead: usize| at(corners[(corner + ahead) % 4]) - at(node);
+            *direction(edge(1).cross(&edge(3)))
         });
-        sum.map(|component| component / norm(sum))
+        UnitVector3::new_normalize(directions.sum())
     }
 
     /// The face under each of `nodes` and its projection there; `None` where the node has no projection.
     pub fn projections(
         &mut self,
         surface: &Surface,
-        displacement: &[Vec3],
+        displacement: &[Vector3<f64>],
         nodes: &[usize],
     ) -> Vec<Option<(u32, Projection)>> {
-        let at = |node: usize| axpy(surface.points[node], 1.0, displacement[node]);
+        let at = |node: usize| surface.points[node] + displacement[node];
         let corners = |face: u32| surface.faces[face as usize].map(|n| at(n as usize));
-        let on =
-            |face: u32, x: Vec3, start: [f64; 2]| project(corners(face), x, start, EDGE_TOLERANCE);
-        let nearest = |faces: &mut dyn Iterator<Item = u32>, x: Vec3| {
+        let on = |face: u32, x: Vector3<f64>, start: [f64; 2]| {
+            project(corners(face), x, start, EDGE_TOLERANCE)
+        };
+        let nearest = |faces: &mut dyn Iterator<Item = u32>, x: Vector3<f64>| {
             faces
                 .filter_map(|face| Some((face, on(face, x, [0.0; 2]).on_face()?)))
                 .min_by(|a, b| a.1.gap.abs().total_cmp(&b.1.gap.abs()))
@@ -172,24 +177,21 @@ impl Pair {
     }
 
     /// Sorts the faces by their present position into square columns over the x-y plane.
-    fn sort_faces(&mut self, surface: &Surface, displacement: &[Vec3]) {
+    fn sort_faces(&mut self, surface: &Surface, displacement: &[Vector3<f64>]) {
         self.grid.clear();
         for &face in &self.masters {
-            let mut centre = [0.0; 3];
-            for node in surface.faces[face as usize] {
-                let node = node as usize;
-                let x = axpy(surface.points[node], 1.0, displacement[node]);
-                centre = axpy(centre, 0.25, x);
-            }
+            let corners = surface.faces[face as usize].map(|node| node as usize);
+            let centre =
+                corners.iter().map(|&n| 0.25 * (surface.points[n] + displacement[n])).sum();
             self.grid.entry(self.column(centre)).or_default().push(face);
         }
     }
 
-    fn column(&self, x: Vec3) -> [i64; 2] {
+    fn column(&self, x: Vector3<f64>) -> [i64; 2] {
         [(x[0] / self.cell).floor() as i64, (x[1] / self.cell).floor() as i64]
     }
 
-    fn near(&self, x: Vec3) -> impl Iterator<Item = u32> {
+    fn near(&self, x: Vector3<f64>) -> impl Iterator<Item = u32> {
         let [i, j] = self.column(x);
         (-1..=1)
             .flat_map(move |di| (-1..=1).map(move |dj| [i + di, j + dj]))
@@ -205,13 +207,13 @@ pub(crate) struct Projection {
     at: [f64; 2],
     /// Bilinear shape functions of the corners there.
     weights: [f64; 4],
-    normal: Vec3,
+    normal: UnitVector3<f64>,
     /// Distance of the node along the normal (m), negative where it penetrates.
     gap: f64,
     /// Surface gradients of the weights times the gap. The point of the other body at the node moves rigidly with
     /// the face at the distance of the gap, `-sum levers (normal . v)` faster than the projection: so a rotation
     /// common to both bodies gives no slip.
-    levers: [Vec3; 4],
+    levers: [Vector3<f64>; 4],
 }
 
 impl Projection {
@@ -242,27 +244,25 @@ impl Projected {
 
 /// Newton's iteration for the closest-point projection of `node` on the bilinear face with the corners `x`, from
 /// the face coordinates `[xi, eta]`; up to `edge` beyond the edges it counts as on the face.
-fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> Projected {
+fn project(
+    x: [Vector3<f64>; 4],
+    node: Vector3<f64>,
+    [mut xi, mut eta]: [f64; 2],
+    edge: f64,
+) -> Projected {
     // The face as centre + xi a + eta b + xi eta twist, measured from the node.
-    let mixed = |[p, q, r, s]: [f64; 4]| {
-        let component = |i: usize| 0.25 * (p * x[0][i] + q * x[1][i] + r * x[2][i] + s * x[3][i]);
-        [component(0), component(1), component(2)]
-    };
-    let centre = sub(mixed([1.0, 1.0, 1.0, 1.0]), node);
+    let mixed = |[p, q, r, s]: [f64; 4]| 0.25 * (p * x[0] + q * x[1] + r * x[2] + s * x[3]);
+    let centre = mixed([1.0, 1.0, 1.0, 1.0]) - node;
     let (a, b) = (mixed([-1.0, 1.0, 1.0, -1.0]), mixed([-1.0, -1.0, 1.0, 1.0]));
     let twist = mixed([1.0, -1.0, 1.0, -1.0]);
     for _ in 0..20 {
-        let (along, across) = (axpy(a, eta, twist), axpy(b, xi, twist));
+        let (along, across) = (a + eta * twist, b + xi * twist);
         // from the point on the face to the node
-        let away = negative(axpy(axpy(centre, xi, along), eta, b));
-        let residual = [dot(along, away), dot(across, away)];
-        let matrix =
-            [dot(along, along), dot(along, across) - dot(away, twist), dot(across, across)];
-        let inverse = 1.0 / (matrix[0] * matrix[2] - matrix[1] * matrix[1]);
-        let step = [
-            inverse * (matrix[2] * residual[0] - matrix[1] * residual[1]),
-            inverse * (matrix[0] * residual[1] - matrix[1] * residual[0]),
-        ];
+        let away = -(centre + xi * along + eta * b);
+        let residual = Vector2::new(along.dot(&away), across.dot(&away));
+        let mixed = along.dot(&across) - away.dot(&twist);
+        let matrix = Matrix2::new(along.norm_squared(), mixed, mixed, across.norm_squared());
+        let step = 1.0 / matrix.determinant() * (adjugate(&matrix) * residual);
         xi += step[0];
         eta += step[1];
         // NaN fails this test too
@@ -274,16 +274,14 @@ fn project(x: [Vec3; 4], node: Vec3, [mut xi, mut eta]: [f64; 2], edge: f64) -> 
             if xi.abs() > 1.0 + edge || eta.abs() > 1.0 + edge {
                 return Projected::Beside([xi, eta]);
             }
-            let normal = cross(along, across);
-            let size = norm(normal);
-            let normal = normal.map(|c| c / size);
-            let gap = dot(normal, away);
+            let (normal, size) = UnitVector3::new_and_get(along.cross(&across));
+            let gap = normal.dot(&away);
             // contravariant base vectors
-            let duals = [cross(across, normal), cross(normal, along)].map(|g| g.map(|c| c / size));
+            let duals = [across.cross(&normal) / size, normal.cross(&along) / size];
             let levers = SIGNS.map(|[sx, se]| {
                 let by_xi = 0.25 * sx * (1.0 + se * eta) * gap;
                 let by_eta = 0.25 * se * (1.0 + sx * xi) * gap;
-                axpy(duals[0].map(|c| c * by_xi), by_eta, duals[1])
+                by_xi * duals[0] + by_eta * duals[1]
             });
             return Projected::On(Projection {
                 at: [xi, eta],
@@ -310,25 +308,29 @@ mod tests {
     #[test]
     fn the_projection_on_a_twisted_face_is_where_the_way_to_the_node_is_normal() {
         let x = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.05], [1.1, 0.9, -0.1], [-0.1, 1.0, 0.1]];
-        let node = [0.3, 0.6, 0.2];
+        let (x, node) = (x.map(Vector3::from), Vector3::new(0.3, 0.6, 0.2));
         let projection = project(x, node, [0.0; 2], EDGE_TOLERANCE).on_face().unwrap();
-        let mut point = [0.0; 3];
-        for (weight, corner) in projection.weights.into_iter().zip(x) {
-            point = axpy(point, weight, corner);
-        }
-        let away = sub(node, point);
-        assert!(norm(cross(away, projection.normal)) < 1e-9 * norm(away));
-        assert!((projection.gap - norm(away)).abs() < 1e-12);
+        let point: Vector3<f64> = projection.weights.into_iter().zip(x).map(|(w, x)| w * x).sum();
+        let away = node - point;
+        assert!(away.cross(&projection.normal).norm() < 1e-9 * away.norm());
+        assert!((projection.gap - away.norm()).abs() < 1e-12);
         assert!((projection.weights.iter().sum::<f64>() - 1.0).abs() < 1e-14);
     }
 
     #[test]
     fn a_node_beside_the_face_has_no_projection() {
-        let x = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
-        let beside = project(x, [1.01, 0.5, 0.0], [0.0; 2], EDGE_TOLERANCE);
+        let x =
+            [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]].map(Vector3::from);
+        let beside = project(x, Vector3::new(1.01, 0.5, 0.0), [0.0; 2], EDGE_TOLERANCE);
         assert!(matches!(beside, Projected::Beside([xi, eta]) if xi > 1.0 && eta.abs() < 1e-12));
-        assert!(project(x, [f64::NAN; 3], [0.0; 2], EDGE_TOLERANCE).on_face().is_none());
-        assert!(project([[0.0; 3]; 4], [0.0; 3], [0.0; 2], EDGE_TOLERANCE).on_face().is_none());
+        assert!(
+            project(x, Vector3::repeat(f64::NAN), [0.0; 2], EDGE_TOLERANCE).on_face().is_none()
+        );
+        assert!(
+            project([Vector3::zeros(); 4], Vector3::zeros(), [0.0; 2], EDGE_TOLERANCE)
+                .on_face()
+                .is_none()
+        );
     }
 
     #[test]
@@ -340,8 +342,9 @@ mod tests {
             [-0.1, 1.0, 0.0],
             [0.4, 0.5, 0.2],
         ];
-        let turn = [3.0, -2.0, 5.0];
-        let velocity = points.iter().map(|&x| cross(turn, x)).collect();
+        let points: Vec<Vector3<f64>> = points.into_iter().map(Vector3::from).collect();
+        let turn = Vector3::new(3.0, -2.0, 5.0);
+        let velocity = points.iter().map(|x| turn.cross(x)).collect();
         let surface = Surface {
             faces: vec![[0, 1, 2, 3]],
             face_body: vec![1],
@@ -349,14 +352,14 @@ mod tests {
             area: vec![1.0; 5],
             points,
         };
-        let motion = [vec![[0.0; 3]; 5], velocity];
+        let motion = [vec![Vector3::zeros(); 5], velocity];
         let slip = Pair::new(&surface, 0).slip(&surface, &motion, &[4])[0].unwrap();
-        assert!(norm(slip) < 1e-14, "{slip:?}");
+        assert!(slip.norm() < 1e-14, "{slip:?}");
     }
 
     /// Two faces in a row along x that meet at x = 0, their other edges at the height `sides`, and a `node` of another body.
-    fn two_faces(sides: f64, node: Vec3) -> Surface {
-        let across = |y: f64| [[-1.0, y, sides], [0.0, y, 0.0], [1.0, y, sides]];
+    fn two_faces(sides: f64, node: Vector3<f64>) -> Surface {
+        let across = |y: f64| [[-1.0, y, sides], [0.0, y, 0.0], [1.0, y, sides]].map(Vector3::from);
         let points = [&across(0.0)[..], &across(1.0), &[node]].concat();
         Surface {
             faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
@@ -370,32 +373,33 @@ mod tests {
     #[test]
     fn slip_over_the_edge_between_two_faces_lies_in_the_plane_of_their_mean_normal() {
         // a ridge of slope 0.1, with the node on it
-        let surface = two_faces(-0.1, [0.0, 0.5, 0.0]);
-        let mut velocity = vec![[0.0; 3]; 7];
-        velocity[6] = [2.0, 1.0, 3.0];
-        let slip = Pair::new(&surface, 0).slip(&surface, &[vec![[0.0; 3]; 7], velocity], &[6]);
-        assert!(norm(sub(slip[0].unwrap(), [2.0, 1.0, 0.0])) < 1e-15, "{slip:?}");
+        let surface = two_faces(-0.1, Vector3::new(0.0, 0.5, 0.0));
+        let mut velocity = vec![Vector3::zeros(); 7];
+        velocity[6] = Vector3::new(2.0, 1.0, 3.0);
+        let slip =
+            Pair::new(&surface, 0).slip(&surface, &[vec![Vector3::zeros(); 7], velocity], &[6]);
+        assert!((slip[0].unwrap() - Vector3::new(2.0, 1.0, 0.0)).norm() < 1e-15, "{slip:?}");
     }
 
     #[test]
     fn slip_over_a_moving_master_that_deforms_is_taken_at_the_projection() {
-        let surface = two_faces(0.0, [-0.75, 0.5, 0.0]);
+        let surface = two_faces(0.0, Vector3::new(-0.75, 0.5, 0.0));
         // v_x of the master grows with x; the node rolls from the first face to the second
-        let velocity = |x: f64| [2.0 * x, 1.0, 5.0];
-        let mut velocities: Vec<Vec3> =
+        let velocity = |x: f64| Vector3::new(2.0 * x, 1.0, 5.0);
+        let mut velocities: Vec<Vector3<f64>> =
             surface.points[..6].iter().map(|x| velocity(x[0])).collect();
-        velocities.push([7.0, 0.0, 0.0]);
+        velocities.push(7.0 * Vector3::x());
         let mut pair = Pair::new(&surface, 0);
         for moved in [0.0, 1.3, 0.2] {
-            let mut displacement = vec![[0.0; 3]; 7];
-            displacement[6] = [moved, 0.0, 0.0];
+            let mut displacement = vec![Vector3::zeros(); 7];
+            displacement[6].x = moved;
             let motion = [displacement, velocities.clone()];
             let slip = pair.slip(&surface, &motion, &[6])[0].unwrap();
-            let expected = [7.0 - 2.0 * (moved - 0.75), -1.0, 0.0];
-            assert!(norm(sub(slip, expected)) < 1e-12, "{slip:?}");
+            let expected = Vector3::new(7.0 - 2.0 * (moved - 0.75), -1.0, 0.0);
+            assert!((slip - expected).norm() < 1e-12, "{slip:?}");
         }
-        let mut displacement = vec![[0.0; 3]; 7];
-        displacement[6] = [9.0, 0.0, 0.0];
+        let mut displacement = vec![Vector3::zeros(); 7];
+        displacement[6].x = 9.0;
         assert_eq!(pair.slip(&surface, &[displacement, velocities], &[6]), [None]);
     }
 }

@@ -17,7 +17,6 @@ use crate::check::frames::{ContactHistory, Frame};
 use crate::check::projection::Pair;
 use crate::check::recorded_law::RecordedLaw;
 use crate::check::surface::Surface;
-use crate::check::vector::{Vec3, axpy, norm};
 use friction::{NodeConditions, NodeFriction, Remembers};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -77,7 +76,7 @@ struct NodeState {
     closed: bool,
     slip: f64,
     pressure: f64,
-    position: Vec3,
+    position: [f64; 3],
     /// Of contact that has just begun, that has slipped for long, at the slower slip, at the faster slip.
     states: States,
 }
@@ -282,12 +281,9 @@ impl NodeUpdate<'_> {
         if !closed {
             return None;
         }
-        let position = match &frame.motion {
-            Some([displacement, _]) => axpy(surface.points[row], 1.0, displacement[row]),
-            None => surface.points[row],
-        };
+        let position = frame.position(surface, row).into();
         let pressure = frame.pass_pressure.as_ref().unwrap_or(&frame.pressure)[row];
-        let slip = norm(frame.slip_velocity[row]);
+        let slip = frame.slip_velocity[row].norm();
         let at = NodeConditions { position, time: frame.time, pressure };
         let old = *node;
         (node.slip, node.pressure, node.position) = (slip, pressure, position);

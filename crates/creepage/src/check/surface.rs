@@ -1,7 +1,8 @@
 //! The mesh of a contact history and the body of each node.
 
 use crate::check::PostError;
-use crate::check::vector::Vec3;
+use mesh::geometry::vector_area;
+use nalgebra::Vector3;
 use output::layout::{BODY_NAMES, CONSTANT};
 use output::{FieldSpec, GridFile};
 use std::path::Path;
@@ -10,7 +11,7 @@ use std::path::Path;
 #[derive(Clone, Debug)]
 pub struct Surface {
     /// Reference coordinates (m).
-    pub points: Vec<Vec3>,
+    pub points: Vec<Vector3<f64>>,
     /// Faces, counter-clockwise seen from outside.
     pub faces: Vec<[u32; 4]>,
     /// Body of each face: 0 disk, 1 bar; 0 where the file has one body only.
@@ -32,7 +33,7 @@ pub fn body_name(body: u8) -> &'static str {
 impl Surface {
     pub(crate) fn read(file: &GridFile, path: &Path) -> Result<Self, PostError> {
         let lacks = |what: &str| PostError::Lacks { path: path.into(), what: what.into() };
-        let points = file.points()?;
+        let points: Vec<Vector3<f64>> = file.points()?.into_iter().map(Vector3::from).collect();
         let connectivity = file.connectivity()?;
         if file.cells().checked_mul(4) != Some(connectivity.len()) {
             return Err(lacks("its cells are not quads; a contact history has four-node faces"));
@@ -41,7 +42,7 @@ impl Surface {
         if connectivity.iter().any(|&node| node as usize >= points.len()) {
             return Err(lacks("a face names a node that the file does not hold"));
         }
-        if points.as_flattened().iter().any(|x| !x.is_finite()) {
+        if points.iter().flatten().any(|x| !x.is_finite()) {
             return Err(lacks("a node has coordinates that are not numbers"));
         }
         let constant = |field: &FieldSpec| {
@@ -88,12 +89,10 @@ impl Surface {
 }
 
 /// Area of each node (m2): a quarter of every face around it.
-fn tributary_areas(points: &[Vec3], faces: &[[u32; 4]]) -> Vec<f64> {
-    use crate::check::vector::{cross, norm, sub};
+fn tributary_areas(points: &[Vector3<f64>], faces: &[[u32; 4]]) -> Vec<f64> {
     let mut area = vec![0.0; points.len()];
     for face in faces {
-        let [a, b, c, d] = face.map(|node| points[node as usize]);
-        let part = 0.125 * norm(cross(sub(c, a), sub(d, b)));
+        let part = 0.25 * vector_area(face.map(|node| points[node as usize])).norm();
         face.iter().for_each(|&node| area[node as usize] += part);
     }
     area
@@ -106,14 +105,15 @@ mod tests {
     #[test]
     fn the_tributary_areas_of_two_faces_are_a_quarter_of_each_at_its_corners() {
         // a square of 2 m on the plane z = 1 m, and one that stands on its edge, 2 m x 3 m
-        let points: [[f64; 3]; 6] = [
+        let points = [
             [0.0, 0.0, 1.0],
             [2.0, 0.0, 1.0],
             [2.0, 2.0, 1.0],
             [0.0, 2.0, 1.0],
             [2.0, 2.0, 4.0],
             [2.0, 0.0, 4.0],
-        ];
+        ]
+        .map(Vector3::from);
         let faces = [[0, 1, 2, 3], [1, 5, 4, 2]];
         let expected = [1.0, 2.5, 2.5, 1.0, 1.5, 1.5];
         for (found, expected) in tributary_areas(&points, &faces).iter().zip(expected) {

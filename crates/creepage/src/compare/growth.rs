@@ -4,7 +4,6 @@
 use crate::check::PostError;
 use crate::check::basis::Basis;
 use crate::check::frames::ContactHistory;
-use crate::check::vector::{dot, sub};
 use crate::compare::result::{GrownOver, Growth};
 
 /// Difference over the largest slip (root mean squares over the nodes) up to which it counts as small.
@@ -38,8 +37,8 @@ pub(super) fn growth(
         let other = b.record(index)?;
         index += 1;
         let pairs = || frame.slip_velocity.iter().zip(&other.slip_velocity);
-        let apart: f64 = pairs().map(|(s, t)| dot(sub(*s, *t), sub(*s, *t))).sum();
-        let all: f64 = pairs().map(|(s, t)| 0.5 * (dot(*s, *s) + dot(*t, *t))).sum();
+        let apart: f64 = pairs().map(|(s, t)| (s - t).norm_squared()).sum();
+        let all: f64 = pairs().map(|(s, t)| 0.5 * (s.norm_squared() + t.norm_squared())).sum();
         largest = largest.max(all.sqrt());
         series.push([frame.time, apart.sqrt()]);
         Ok(())

@@ -4,7 +4,6 @@ use super::caption::caption;
 use super::half_space;
 use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::chart::{Axis, Draw, Figure, Panel, Series, colour};
-use crate::check::vector::norm;
 
 /// A quantity of a record at a node, drawn against x.
 type Quantity<'a> = &'a dyn Fn(&Instant, usize) -> f64;
@@ -72,7 +71,7 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
         values.into_iter().map(|[x, p]| [x, 1e-6 * p]).collect()
     };
     let pressure = |instant: &Instant, row: usize| instant.frame.pressure[row];
-    let shear = |instant: &Instant, row: usize| norm(instant.frame.shear[row]);
+    let shear = |instant: &Instant, row: usize| instant.frame.shear[row].norm();
     let mut series = Vec::new();
     if let Some(last) = scene.instants.last() {
         let points = mega(along(scene, last, scene.body, &pressure));
@@ -147,12 +146,12 @@ pub(super) fn bound(scene: &Scene<'_>) -> Figure {
     };
     let mu = |instant: &Instant, row: usize| {
         let used = || instant.frame.mu.as_ref().map_or(f64::NAN, |mu| mu[row]);
-        let speed = norm(instant.frame.slip_velocity[row]);
+        let speed = instant.frame.slip_velocity[row].norm();
         let mu = scene.basis.law.map_or_else(used, |law| law.mu(speed));
         in_contact(instant, row, mu)
     };
     let ratio = |instant: &Instant, row: usize| {
-        let ratio = norm(instant.frame.shear[row]) / instant.frame.pressure[row];
+        let ratio = instant.frame.shear[row].norm() / instant.frame.pressure[row];
         in_contact(instant, row, ratio)
     };
     let pressure = |instant: &Instant, row: usize| 1e-6 * instant.frame.pressure[row];

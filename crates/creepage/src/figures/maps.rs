@@ -4,7 +4,6 @@ use super::caption::caption;
 use super::scene::{Instant, Scene, time_label};
 use crate::chart::{Axis, Cell, Figure, Fill, Key, Panel, Scale, colour};
 use crate::check::PostError;
-use crate::check::vector::norm;
 
 /// The data of all records of the window that figures show: the centre line over time, and the points
 /// (|s| (m/s), p_f/p_n) of nodes in contact.
@@ -42,8 +41,8 @@ impl Band {
         let times = &history.times;
         history.stream(scene.records.clone(), |frame| {
             let speed_and_ratio = |row: usize| {
-                let speed = norm(frame.slip_velocity[row]);
-                (speed, norm(frame.shear[row]) / frame.pressure[row])
+                let speed = frame.slip_velocity[row].norm();
+                (speed, frame.shear[row].norm() / frame.pressure[row])
             };
             for row in 0..frame.pressure.len() {
                 if history.surface.body[row] == scene.body && scene.in_contact(&frame, row) {
@@ -119,7 +118,7 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
             .collect()
     };
     let all = scene.instants.iter().flat_map(|instant| {
-        rows_of(instant).into_iter().map(|row| norm(instant.frame.slip_velocity[row]))
+        rows_of(instant).into_iter().map(|row| instant.frame.slip_velocity[row].norm())
     });
     let speed_key = speeds(all);
     let state_key = states();
@@ -147,7 +146,7 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
                 let colour = if by_state {
                     state_colour(frame.state.as_ref().map(|state| state[row]))
                 } else {
-                    speed_key.colour(norm(frame.slip_velocity[row]))
+                    speed_key.colour(frame.slip_velocity[row].norm())
                 };
                 let [low, high] = [-SEAM, SEAM].map(|by| middle.map(|x| x + by * half));
                 Cell { low, high, colour }

@@ -5,7 +5,7 @@ use super::caption::caption;
 use super::maps::{SEAM, speeds, state_colour, states};
 use super::scene::{Instant, Scene, time_label};
 use crate::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour};
-use crate::check::vector::{Vec3, norm};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most arrows along the patch.
@@ -122,8 +122,8 @@ impl<'a> Patch<'a> {
     }
 
     /// The magnitude of a vector field, `factor` times, with arrows.
-    fn vectors(&self, title: &str, label: &str, factor: f64, field: &[Vec3]) -> Panel {
-        let size = |row: usize| factor * norm(field[row]);
+    fn vectors(&self, title: &str, label: &str, factor: f64, field: &[Vector3<f64>]) -> Panel {
+        let size = |row: usize| factor * field[row].norm();
         let largest = self.nodes.iter().map(|node| size(node.row)).fold(0.0, f64::max);
         let key = values(label, [0.0, if largest > 0.0 { largest } else { 1.0 }]);
         let mut panel = self.map(title, &key, size);
@@ -133,8 +133,8 @@ impl<'a> Patch<'a> {
 
     fn slip(&self, title: &str) -> Panel {
         let field = &self.instant.frame.slip_velocity;
-        let key = speeds(self.nodes.iter().map(|node| norm(field[node.row])));
-        let mut panel = self.map(title, &key, |row| norm(field[row]));
+        let key = speeds(self.nodes.iter().map(|node| field[node.row].norm()));
+        let mut panel = self.map(title, &key, |row| field[row].norm());
         panel.series.push(self.arrows(field));
         panel
     }
@@ -155,7 +155,7 @@ impl<'a> Patch<'a> {
         }
         let mu = |row: usize| match (&frame.mu, law) {
             (Some(mu), _) => mu[row],
-            (None, Some(law)) => law.mu(norm(frame.slip_velocity[row])),
+            (None, Some(law)) => law.mu(frame.slip_velocity[row].norm()),
             (None, None) => f64::NAN,
         };
         let ends = self.nodes.iter().map(|node| mu(node.row)).filter(|mu| mu.is_finite());
@@ -175,7 +175,7 @@ impl<'a> Patch<'a> {
     }
 
     /// Arrows in proportion to a vector field, with their middle at nodes that are far enough from each other.
-    fn arrows(&self, field: &[Vec3]) -> Series {
+    fn arrows(&self, field: &[Vector3<f64>]) -> Series {
         let apart = (2e3 * self.scene.reach() / ARROWS).max(1e3 * self.scene.scales.size);
         let cell = |node: &Node| node.at.map(|x| (x / apart).round() as i64);
         let off = |node: &Node| -> f64 {
@@ -188,7 +188,7 @@ impl<'a> Patch<'a> {
                 *place = node;
             }
         }
-        let along = |node: &Node| [field[node.row][0], field[node.row][1]];
+        let along = |node: &Node| field[node.row].xy();
         let length = |node: &Node| libm::hypot(along(node)[0], along(node)[1]);
         let longest = shown.values().map(|node| length(node)).fold(0.0, f64::max);
         let long_enough = |node: &&&Node| length(node) > SHORTEST * longest;

@@ -5,7 +5,7 @@ use crate::check::Scales;
 use crate::check::basis::Basis;
 use crate::check::frames::{ContactHistory, Frame};
 use crate::check::patch_series;
-use crate::check::vector::{Vec3, axpy};
+use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Interval of the snapshots in the papers (s).
@@ -71,12 +71,8 @@ impl Scene<'_> {
     }
 
     /// Position of a node (m), deformed where the record has displacements.
-    pub fn position(&self, frame: &Frame, row: usize) -> Vec3 {
-        let point = self.history.surface.points[row];
-        match &frame.motion {
-            Some([displacement, _]) => axpy(point, 1.0, displacement[row]),
-            None => point,
-        }
+    pub fn position(&self, frame: &Frame, row: usize) -> Vector3<f64> {
+        frame.position(&self.history.surface, row)
     }
 
     /// Indices of a body's nodes nearest y = 0, sorted by their reference x.

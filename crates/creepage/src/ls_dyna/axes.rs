@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use mesh::geometry::hull;
+use nalgebra::Vector3;
+
 use crate::ls_dyna::deck::Deck;
 use crate::ls_dyna::error::{DeckError, Fault};
 
@@ -14,14 +17,14 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 /// Another frame, with what in the deck shows it.
 pub(crate) fn stand(
     deck: &Deck,
-    points: &[[f64; 3]],
+    points: &[Vector3<f64>],
     nodes: &[BTreeSet<u32>; 2],
 ) -> Result<(), DeckError> {
-    let [disk, bar] = [0, 1].map(|body| extent(points, &nodes[body]));
-    let size = |a: usize| disk[a][1] - disk[a][0];
+    let [disk, bar] = nodes.each_ref().map(|body| hull(body.iter().map(|n| &points[*n as usize])));
+    let size = |a: usize| disk[1][a] - disk[0][a];
     // how far the bodies are apart along an axis; below 0 how far they overlap
-    let apart = |a: usize| (disk[a][0] - bar[a][1]).max(bar[a][0] - disk[a][1]);
-    let beyond = |a: usize| disk[a][0] + disk[a][1] > bar[a][0] + bar[a][1];
+    let apart = |a: usize| (disk[0][a] - bar[1][a]).max(bar[0][a] - disk[1][a]);
+    let beyond = |a: usize| disk[0][a] + disk[1][a] > bar[0][a] + bar[1][a];
     // bodies in contact meet along one axis and overlap along the others
     let vertical =
         (0..3).find(|a| apart(*a) > -MEETING * size(*a)).filter(|_| apart(2) < -OVERLAP * size(2));
@@ -59,15 +62,4 @@ const OVERLAP: f64 = 0.4;
 /// Whether two sizes are those of a circle.
 fn is_round(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.01 * b
-}
-
-/// Least and largest x, y, z of nodes.
-fn extent(points: &[[f64; 3]], nodes: &BTreeSet<u32>) -> [[f64; 2]; 3] {
-    let mut extent = [[f64::INFINITY, f64::NEG_INFINITY]; 3];
-    for n in nodes {
-        for ([low, high], x) in extent.iter_mut().zip(points[*n as usize]) {
-            (*low, *high) = (low.min(x), high.max(x));
-        }
-    }
-    extent
 }

@@ -2,7 +2,9 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use mesh::geometry::{hull, vector_area};
 use mesh::import::{Foreign, Set};
+use nalgebra::Vector3;
 
 use crate::ls_dyna::deck::Side;
 use crate::ls_dyna::error::{DeckError, DeckLine, lacks, syntax, unknown};
@@ -77,16 +79,16 @@ fn outer_faces(
         let centre = mean(&corners);
         // the deck may number elements inside out
         let inside = mean(&foreign.hexes[element].map(|n| foreign.points[n as usize]));
-        let normal = vector_area(&corners);
-        let outward = if dot(normal, sub(centre, inside)) < 0.0 { -1.0 } else { 1.0 };
+        let normal = vector_area(corners);
+        let outward = if normal.dot(&(centre - inside)) < 0.0 { -1.0 } else { 1.0 };
         let (towards, height) = match body {
             0 => {
-                let radius = [centre[0] - axle[0], 0.0, centre[2] - axle[1]];
-                (radius, norm(radius))
+                let radius = Vector3::new(centre.x - axle.x, 0.0, centre.z - axle.z);
+                (radius, radius.norm())
             }
-            _ => ([0.0, 0.0, 1.0], centre[2]),
+            _ => (Vector3::z(), centre.z),
         };
-        if outward * dot(normal, towards) > FACING * norm(normal) * norm(towards) {
+        if outward * normal.dot(&towards) > FACING * normal.norm() * towards.norm() {
             facing.push((face, height));
         }
     }
@@ -115,35 +117,13 @@ fn connected(faces: Vec<([u32; 4], f64)>) -> Vec<[u32; 4]> {
     reached.into_iter().map(|face| faces[face].0).collect()
 }
 
-/// Where the axle crosses y = 0 (x, z): in the middle of the hub.
-fn axle(foreign: &Foreign) -> [f64; 2] {
+/// The middle of the hub, where the axle crosses y = 0.
+fn axle(foreign: &Foreign) -> Vector3<f64> {
     let hub = foreign.sets.get("hub").map_or(&[][..], |hub| &hub.nodes);
-    [0, 2].map(|axis| {
-        let along = hub.iter().map(|n| foreign.points[*n as usize][axis]);
-        0.5 * (along.clone().fold(f64::INFINITY, f64::min)
-            + along.fold(f64::NEG_INFINITY, f64::max))
-    })
+    let [low, high] = hull(hub.iter().map(|n| &foreign.points[*n as usize]));
+    0.5 * (low + high)
 }
 
-/// Vector area of a quadrilateral: half the product of its diagonals.
-fn vector_area(corners: &[[f64; 3]; 4]) -> [f64; 3] {
-    let (a, b) = (sub(corners[2], corners[0]), sub(corners[3], corners[1]));
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-        .map(|x| 0.5 * x)
-}
-
-fn mean(points: &[[f64; 3]]) -> [f64; 3] {
-    [0, 1, 2].map(|i| points.iter().map(|p| p[i]).sum::<f64>() / points.len() as f64)
-}
-
-fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn norm(a: [f64; 3]) -> f64 {
-    dot(a, a).sqrt()
+fn mean(points: &[Vector3<f64>]) -> Vector3<f64> {
+    points.iter().sum::<Vector3<f64>>() / points.len() as f64
 }

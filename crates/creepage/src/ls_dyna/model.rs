@@ -7,6 +7,7 @@ use crate::ls_dyna::error::{DeckError, DeckLine, Fault, lacks, unknown, unsuppor
 use crate::ls_dyna::units::Units;
 use mesh::import::{Foreign, Labels};
 use mesh::{Body, Mesh};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 /// The mesh of the disk and the bar with its sets.
@@ -115,7 +116,7 @@ impl Model {
         let mass = solid::lumped_mass(&mesh, &[density]);
         let nodes = sets.get(set).map_or(&[][..], |set| &set.nodes);
         nodes.iter().map(|n| *n as usize).fold([0.0; 2], |[sum, moment], n| {
-            let [x, _, z] = points[n];
+            let [x, _, z] = points[n].into();
             let squared = x * x + (z - height) * (z - height);
             [sum + mass[n], moment + mass[n] * squared]
         })
@@ -222,7 +223,7 @@ fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indice
         if indices.insert(node.id, foreign.points.len() as u32).is_some() {
             return Err(Fault::RepeatedNode { id: node.id }.at(&node.place));
         }
-        foreign.points.push(node.point.map(|x| x * units.length()));
+        foreign.points.push(Vector3::from(node.point) * units.length());
         label(&mut foreign.nodes, node.id, node.place.line);
     }
     Ok(Indices(indices))

@@ -28,8 +28,9 @@ pub(crate) fn write_mesh(path: &Path, case: &Case, model: &Model) -> Result<(), 
     let mut constant = vec![StaticField::body(&body)];
     let specs = MESH_SETS.each().into_iter().zip(&sets);
     constant.extend(specs.map(|(spec, members)| StaticField::set(spec, members)));
+    let points: Vec<[f64; 3]> = mesh.nodes.iter().map(|&x| x.into()).collect();
     let grid =
-        GridSpec { points: &mesh.nodes, cells: Cells::Hexahedra(&mesh.hexes), constant: &constant };
+        GridSpec { points: &points, cells: Cells::Hexahedra(&mesh.hexes), constant: &constant };
     if ends("vtu") {
         return Ok(output::write_vtu(path, &grid)?);
     }

@@ -142,7 +142,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
         stable_dt: StableStep {
             bound: 2.0 / bound,
             bound_element,
-            bound_element_centre: solid.centre(bound_element),
+            bound_element_centre: solid.centre(bound_element).into(),
             power_iteration: 2.0 / omega,
             step,
         },

@@ -53,7 +53,7 @@ pub(crate) fn write(
     let fields = POSTMORTEM.each().map(FieldSpec::clone);
     let path = folder.join(file::POSTMORTEM);
     let mut grid = TransientGrid::create(path, &grid, &fields, &provenance)?;
-    let places = simulation.displacement().iter().map(|u| moved(u.xyz(), simulation.travel()));
+    let places = simulation.displacement().iter().map(|u| moved(*u, simulation.travel()).into());
     let displacement: Vec<_> = places.collect();
     let values = PostmortemFields {
         displacement: Values::Vector(&displacement),

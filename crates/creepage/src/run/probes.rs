@@ -51,7 +51,8 @@ struct Places {
 
 impl Places {
     /// Arc length or x, and y, of a node with this reference position (m).
-    fn of(&self, side: usize, [x, y, z]: [f64; 3]) -> [f64; 2] {
+    fn of(&self, side: usize, x: Padded) -> [f64; 2] {
+        let [x, y, z] = x.xyz();
         let along = if side == DISK { self.radius * libm::atan2(x, self.radius - z) } else { x };
         [along, y]
     }
@@ -76,12 +77,12 @@ impl Places {
         let passed = if side == DISK { self.radius * travel.angle } else { travel.x };
         let sign = if self.symmetric && y < 0.0 { -1.0 } else { 1.0 };
         let distance = |n: u32| {
-            let place = self.of(side, reference[n as usize].xyz());
+            let place = self.of(side, reference[n as usize]);
             libm::hypot(self.ahead(side, place[0] + passed - s), place[1] - sign * y)
         };
         let nodes = self.zones[side].iter().flat_map(|f| f.nodes);
         let node = nodes.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
-        let along = self.of(side, reference[node as usize].xyz())[0];
+        let along = self.of(side, reference[node as usize])[0];
         let held = !self.follows || self.ahead(side, along + passed - s).abs() <= 0.51 * self.size;
         let on_plane = reference[node as usize][1] == 0.0;
         held.then_some((node, if on_plane { 1.0 } else { sign }))
@@ -144,7 +145,7 @@ impl Probes {
             let at = match probe.row {
                 Some(row) if !places.follows => {
                     let n = tables[probe.side].nodes[row];
-                    let [x, y, z] = model.mesh.nodes[n as usize];
+                    let [x, y, z] = model.mesh.at(n).into();
                     format!("node {n} of the {body} at {x:.6}, {:.6}, {z:.6} m", probe.sign * y)
                 }
                 _ => format!(

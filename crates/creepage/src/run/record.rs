@@ -20,6 +20,7 @@ use crate::scenario::{BAR, DISK, Model};
 use ::contact::{ContactTables, NodalContact};
 use dynamics::{Hub, Simulation, StepReport, Travel};
 use mesh::Padded;
+use nalgebra::Vector3;
 use output::layout::{BODIES, BodyFields, Pairing, file};
 use output::{
     Cells, Checkpoint, FieldSpec, GridSpec, OutputError, Results, RunFiles, Snapshot, StaticField,
@@ -34,8 +35,8 @@ use std::time::{Duration, Instant};
 pub(crate) struct Recorder {
     contact: ContactRecord,
     /// Displacement (m) and velocity (m/s) of the nodes of both contact zones, copied for a record of contact.
-    displacement: Vec<[f64; 3]>,
-    velocity: Vec<[f64; 3]>,
+    displacement: Vec<Vector3<f64>>,
+    velocity: Vec<Vector3<f64>>,
     fields: Schedule,
     probes: Option<Probes>,
     stress: bool,
@@ -99,8 +100,8 @@ impl Recorder {
         Ok(Self {
             probes: Probes::new(case, model, simulation, basis)?,
             contact,
-            displacement: vec![[0.0; 3]; count],
-            velocity: vec![[0.0; 3]; count],
+            displacement: vec![Vector3::zeros(); count],
+            velocity: vec![Vector3::zeros(); count],
             fields: Schedule { interval: case.fields_interval(), next: 0.0 },
             stress: case.output.stress,
             disk: model.mesh.bodies[DISK].nodes.clone(),
@@ -151,7 +152,7 @@ impl Recorder {
         }
         if self.contact.records(simulation.steps() as u64) {
             for (u, node) in self.displacement.iter_mut().zip(self.contact.nodes()) {
-                *u = moved(simulation.displacement()[node as usize].xyz(), simulation.travel());
+                *u = moved(simulation.displacement()[node as usize], simulation.travel());
             }
             if self.contact.pairing() == Pairing::Before {
                 self.copy_velocity(simulation);
@@ -163,7 +164,7 @@ impl Recorder {
 
     fn copy_velocity(&mut self, simulation: &Simulation) {
         for (v, node) in self.velocity.iter_mut().zip(self.contact.nodes()) {
-            *v = simulation.step_velocity()[node as usize].xyz();
+            *v = simulation.step_velocity()[node as usize].vector();
         }
     }
 
@@ -246,7 +247,7 @@ impl Recorder {
         };
         let fields = BodyFields::<Option<&dyn Fn(&mut Snapshot<'_>)>> {
             displacement: Some(&|to| {
-                to.vectors(displacement.iter().map(|u| moved(u.xyz(), simulation.travel())));
+                to.vectors(displacement.iter().map(|u| moved(*u, simulation.travel()).into()));
             }),
             deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
             velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
@@ -296,7 +297,7 @@ fn surfaces<'a>(
 ) -> Surfaces<'a> {
     let points = tables
         .each_ref()
-        .map(|table| table.nodes.iter().map(|&n| model.mesh.nodes[n as usize]).collect::<Vec<_>>());
+        .map(|table| table.nodes.iter().map(|&n| model.mesh.at(n)).collect::<Vec<_>>());
     let (enforced_on, half) = (contact.enforced_on(), model.mesh.symmetric);
     Surfaces { tables, points, faces: mesh_mode.faces(), enforced_on, half }
 }
@@ -309,8 +310,9 @@ fn create_fields(
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();
     specs.retain(|spec| case.output.stress || *spec != BODIES.stress);
+    let points: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|&x| x.into()).collect();
     let grid = GridSpec {
-        points: &model.mesh.nodes,
+        points: &points,
         cells: Cells::Hexahedra(&model.mesh.hexes),
         constant: &[StaticField::body(&body)],
     };
@@ -318,8 +320,8 @@ fn create_fields(
 }
 
 /// A displacement (m) in a mesh that has moved, from the place of the node at the start.
-pub(crate) fn moved([x, y, z]: [f64; 3], travel: Travel) -> [f64; 3] {
-    [x + travel.x, y, z]
+pub(crate) fn moved(u: Padded, travel: Travel) -> Vector3<f64> {
+    Vector3::new(u[0] + travel.x, u[1], u[2])
 }
 
 #[cfg(test)]

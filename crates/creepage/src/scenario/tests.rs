@@ -101,7 +101,7 @@ fn causes() -> Vec<Cause> {
 }
 
 fn statics_errors() -> impl Iterator<Item = StaticsError> {
-    let (body, position) = (String::new, [0.0; 3]);
+    let (body, position) = (String::new, nalgebra::Vector3::zeros());
     let at = statics::Iteration::default();
     every!(StaticsError: NoSuchNode { node: 0 } TwiceSupported { node: 0 } EmptyGroup {}
         NotANumber { value: 0.0 } Floating { body: body(), node: 0 }

@@ -5,7 +5,7 @@ use super::quantity::{Drawable, Quantity};
 use super::rigid::Rigid;
 use crate::check::PostError;
 use crate::check::frames;
-use crate::check::vector::{Vec3, axpy, norm, sub};
+use nalgebra::Vector3;
 use output::layout::{BODIES, CONSTANT, CONTACT, HALF, attribute};
 use output::{FieldSpec, GridFile, as_long_as_written, as_written, read_summary};
 use std::collections::BTreeMap;
@@ -20,7 +20,7 @@ pub(super) struct Source {
     file: GridFile,
     pub(super) times: Vec<f64>,
     /// Reference coordinates (m).
-    pub(super) points: Vec<Vec3>,
+    pub(super) points: Vec<Vector3<f64>>,
     /// Corners of all cells, one cell after the other.
     pub(super) corners: Vec<u32>,
     /// Corners of each cell: 8 of the bodies, 4 of the surfaces.
@@ -38,22 +38,22 @@ pub(super) struct Source {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Record {
     /// Where the nodes are (m).
-    pub(super) placed: Vec<Vec3>,
+    pub(super) placed: Vec<Vector3<f64>>,
     /// What of their displacement is no rigid motion of their body (m).
-    pub(super) deformation: Vec<Vec3>,
+    pub(super) deformation: Vec<Vector3<f64>>,
     /// The quantities by their names, each in the unit of its label.
     pub(super) values: BTreeMap<&'static str, Vec<f64>>,
     /// Shear traction (Pa); of surfaces alone.
-    pub(super) shear: Option<Vec<Vec3>>,
+    pub(super) shear: Option<Vec<Vector3<f64>>>,
     /// Below the axis of the disk, as deep as the disk reaches.
-    pub(super) lowest: Vec3,
+    pub(super) lowest: Vector3<f64>,
 }
 
 impl Record {
     /// Where the nodes are with their deformation `times` as large.
-    pub(super) fn magnified(&self, times: f64) -> Vec<Vec3> {
+    pub(super) fn magnified(&self, times: f64) -> Vec<Vector3<f64>> {
         let pairs = self.placed.iter().zip(&self.deformation);
-        pairs.map(|(p, d)| axpy(*p, times - 1.0, *d)).collect()
+        pairs.map(|(p, d)| p + (times - 1.0) * d).collect()
     }
 }
 
@@ -79,7 +79,7 @@ impl Source {
         let half = file.provenance(attribute::SYMMETRY).is_ok_and(|text| text == HALF)
             && what == Drawable::Bodies;
         let mut source = Self {
-            points: file.points()?,
+            points: file.points()?.into_iter().map(Vector3::from).collect(),
             corners: file.connectivity()?,
             bodies: vec![DISK; file.cells()],
             disk: Vec::new(),
@@ -111,7 +111,7 @@ impl Source {
         if self.corners.iter().any(|&node| node as usize >= self.points.len()) {
             return lacks("a cell names a node that the file does not hold");
         }
-        let finite = self.points.as_flattened().iter().chain(&self.times).all(|x| x.is_finite());
+        let finite = self.points.iter().flatten().chain(&self.times).all(|x| x.is_finite());
         if finite { Ok(()) } else { lacks("a coordinate or a time is not a number") }
     }
 
@@ -144,11 +144,9 @@ impl Source {
     }
 
     /// Centre of each cell before it moved.
-    pub(super) fn centre(&self, cell: usize) -> Vec3 {
+    pub(super) fn centre(&self, cell: usize) -> Vector3<f64> {
         let corners = &self.corners[cell * self.per_cell..][..self.per_cell];
-        let add =
-            |sum, &node: &u32| axpy(sum, 1.0 / corners.len() as f64, self.points[node as usize]);
-        corners.iter().fold([0.0; 3], add)
+        corners.iter().map(|&node| 1.0 / corners.len() as f64 * self.points[node as usize]).sum()
     }
 
     /// The record `index` with these quantities at its nodes.
@@ -159,12 +157,12 @@ impl Source {
     ) -> Result<Record, SceneError> {
         let displacement = if self.per_cell == 4 && !self.has(&CONTACT.displacement) {
             // contact histories of other codes need not have it
-            vec![[0.0; 3]; self.points.len()]
+            vec![Vector3::zeros(); self.points.len()]
         } else {
             self.vectors(&BODIES.displacement, index)?
         };
-        let placed: Vec<Vec3> =
-            self.points.iter().zip(&displacement).map(|(p, u)| axpy(*p, 1.0, *u)).collect();
+        let placed: Vec<Vector3<f64>> =
+            self.points.iter().zip(&displacement).map(|(p, u)| p + u).collect();
         let deformation = if self.has(&BODIES.deformation) {
             self.vectors(&BODIES.deformation, index)?
         } else {
@@ -185,24 +183,28 @@ impl Source {
     }
 
     /// The place below the axis of the disk, which moves without jumps from node to node.
-    fn lowest(&self, placed: &[Vec3], deformation: &[Vec3]) -> Vec3 {
-        let of_disk = |node: &usize| sub(placed[*node], deformation[*node]);
-        let before: Vec<Vec3> = self.disk.iter().map(|&node| self.points[node]).collect();
-        let after: Vec<Vec3> = self.disk.iter().map(of_disk).collect();
+    fn lowest(&self, placed: &[Vector3<f64>], deformation: &[Vector3<f64>]) -> Vector3<f64> {
+        let of_disk = |node: &usize| placed[*node] - deformation[*node];
+        let before: Vec<Vector3<f64>> = self.disk.iter().map(|&node| self.points[node]).collect();
+        let after: Vec<Vector3<f64>> = self.disk.iter().map(of_disk).collect();
         let [low, high] = self.heights;
-        let axis = [0.0, 0.0, 0.5 * (low + high)];
+        let axis = 0.5 * (low + high) * Vector3::z();
         let moved = Rigid::fit(&before, &after).map_or(axis, |rigid| rigid.of(axis));
         let [bottom, _] = ends(self.disk.iter().map(|&node| placed[node][2]));
-        [moved[0], 0.0, bottom]
+        Vector3::new(moved.x, 0.0, bottom)
     }
 
     /// The displacements, those of the disk's nodes without its rigid motion; the bar has none, as in the field
     /// `deformation`.
-    fn less_rigid(&self, mut displacement: Vec<Vec3>, placed: &[Vec3]) -> Vec<Vec3> {
-        let of_disk = |all: &[Vec3]| self.disk.iter().map(|&n| all[n]).collect::<Vec<_>>();
+    fn less_rigid(
+        &self,
+        mut displacement: Vec<Vector3<f64>>,
+        placed: &[Vector3<f64>],
+    ) -> Vec<Vector3<f64>> {
+        let of_disk = |all: &[Vector3<f64>]| self.disk.iter().map(|&n| all[n]).collect::<Vec<_>>();
         if let Some(rigid) = Rigid::fit(&of_disk(&self.points), &of_disk(placed)) {
             for &node in &self.disk {
-                displacement[node] = sub(placed[node], rigid.of(self.points[node]));
+                displacement[node] = placed[node] - rigid.of(self.points[node]);
             }
         }
         displacement
@@ -215,7 +217,7 @@ impl Source {
         quantity: Quantity,
         record: &Record,
     ) -> Result<Vec<f64>, SceneError> {
-        let sizes = |vectors: Vec<Vec3>| vectors.into_iter().map(norm).collect();
+        let sizes = |vectors: Vec<Vector3<f64>>| vectors.iter().map(|v| v.norm()).collect();
         match (quantity, quantity.dataset()) {
             (Quantity::VonMises, Some(field)) => {
                 let stress = self.numbers(field, index)?;
@@ -249,8 +251,8 @@ impl Source {
         sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect()
     }
 
-    fn vectors(&self, field: &FieldSpec, index: usize) -> Result<Vec<Vec3>, SceneError> {
-        Ok(self.numbers(field, index)?.as_chunks().0.to_vec())
+    fn vectors(&self, field: &FieldSpec, index: usize) -> Result<Vec<Vector3<f64>>, SceneError> {
+        Ok(frames::vectors(&self.numbers(field, index)?))
     }
 
     /// A field of a record, as many numbers as it must have, all finite.
@@ -305,11 +307,11 @@ mod tests {
     #[test]
     fn magnified_bodies_keep_their_place_and_only_their_deformation_grows() {
         let record = Record {
-            placed: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]],
-            deformation: vec![[0.0; 3], [0.0, 0.0, 1e-3]],
+            placed: vec![Vector3::new(1.0, 2.0, 3.0), Vector3::new(4.0, 5.0, 6.0)],
+            deformation: vec![Vector3::zeros(), 1e-3 * Vector3::z()],
             ..Record::default()
         };
-        assert_eq!(record.magnified(100.0)[0], [1.0, 2.0, 3.0]);
+        assert_eq!(record.magnified(100.0)[0], Vector3::new(1.0, 2.0, 3.0));
         assert!((record.magnified(100.0)[1][2] - 6.099).abs() < 1e-12);
         assert_eq!(record.magnified(1.0), record.placed);
     }

@@ -6,7 +6,8 @@ use super::quantity::Drawable;
 use super::source::Record;
 use crate::chart::{Axis, Face, Figure, Fill, Key, Panel, Scale};
 use crate::check::digits::digits;
-use crate::check::vector::{Vec3, cross, dot, norm, sub};
+use mesh::geometry::vector_area;
+use nalgebra::Vector3;
 
 /// What the largest deformation takes of the side of the view.
 const SHARE: f64 = 0.05;
@@ -16,7 +17,7 @@ const OBLIQUE: [f64; 2] = [0.40, 0.25];
 
 /// Where to look.
 pub(super) struct View {
-    pub centre: Vec3,
+    pub centre: Vector3<f64>,
     /// Side of what is seen (m).
     pub span: f64,
     pub time: f64,
@@ -29,7 +30,7 @@ pub(super) fn still(shown: &ShownFile, record: &Record, field: &Field, view: Vie
         range: [0.0, field.top.max(f64::MIN_POSITIVE)],
         scale: Scale::Linear,
     };
-    let largest = record.deformation.iter().map(|d| norm(*d)).fold(0.0, f64::max);
+    let largest = record.deformation.iter().map(|d| d.norm()).fold(0.0, f64::max);
     let times =
         if largest > 0.0 { round_down((SHARE * view.span / largest).max(1.0)) } else { 1.0 };
     let placed = record.magnified(times);
@@ -37,18 +38,18 @@ pub(super) fn still(shown: &ShownFile, record: &Record, field: &Field, view: Vie
     let half = 0.5 * view.span;
     let mut faces: Vec<(f64, Face)> = Vec::new();
     for quad in near(shown) {
-        let corners = quad.map(|node| sub(placed[node as usize], view.centre));
-        let normal = cross(sub(corners[2], corners[0]), sub(corners[3], corners[1]));
-        let line_of_sight = [-OBLIQUE[0], 1.0, -OBLIQUE[1]];
-        let drawn = corners.map(|[x, y, z]| [x + OBLIQUE[0] * y, z + OBLIQUE[1] * y]);
+        let corners = quad.map(|node| placed[node as usize] - view.centre);
+        let normal = vector_area(corners);
+        let line_of_sight = Vector3::new(-OBLIQUE[0], 1.0, -OBLIQUE[1]);
+        let drawn = corners.map(|c| [c.x + OBLIQUE[0] * c.y, c.z + OBLIQUE[1] * c.y]);
         let inside = drawn.as_flattened().iter().all(|x| x.abs() <= half);
-        if dot(normal, line_of_sight) >= 0.0 || !inside {
+        if normal.dot(&line_of_sight) >= 0.0 || !inside {
             continue;
         }
-        let depth = corners.iter().map(|corner| dot(*corner, line_of_sight)).sum::<f64>();
+        let depth = corners.iter().map(|corner| corner.dot(&line_of_sight)).sum::<f64>();
         let value = quad.iter().map(|&node| 0.25 * values[node as usize]).sum();
         // faces that look to the front have the colours of the key, others are in shade
-        let light = 0.7 + 0.3 * (normal[1] / norm(normal)).abs();
+        let light = 0.7 + 0.3 * (normal[1] / normal.norm()).abs();
         let colour = key.colour(value).map(|part| (f64::from(part) * light) as u8);
         let corners = drawn.map(|[x, z]| [1e3 * (x + view.centre[0]), 1e3 * (z + view.centre[2])]);
         faces.push((depth, Face { corners, colour }));

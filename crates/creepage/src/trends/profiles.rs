@@ -4,7 +4,6 @@ use crate::check::PostError;
 use crate::check::Scales;
 use crate::check::basis::{Basis, RunPaths};
 use crate::check::frames::ContactHistory;
-use crate::check::vector::norm;
 use crate::check::window::Window;
 use crate::figures::{FigureMeans, Scene};
 use std::collections::BTreeMap;
@@ -51,10 +50,10 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
             }
             let bin = bins.entry((x / scales.size).round() as i64).or_default();
             bin[0] += frame.pressure[row];
-            bin[1] += norm(frame.shear[row]);
+            bin[1] += frame.shear[row].norm();
             bin[3] += 1.0;
             if scene.in_contact(&frame, row) {
-                bin[2] += norm(frame.slip_velocity[row]);
+                bin[2] += frame.slip_velocity[row].norm();
                 bin[4] += 1.0;
             }
         }

@@ -95,7 +95,7 @@ impl Operator {
         let n = nodes.inverse_mass.len();
         let mut dashpots = vec![Padded::ZERO; n];
         for (node, c) in system.quiet.dashpots() {
-            dashpots[node as usize] = Padded::new(c);
+            dashpots[node as usize] = Padded::from(c);
         }
         for (c, w) in dashpots.iter_mut().zip(&nodes.inverse_mass) {
             if *w > 0.0 {
@@ -103,7 +103,7 @@ impl Operator {
             }
         }
         let diagonal = system.solid.stiffness_diagonal();
-        let diagonal = diagonal.iter().map(|k| Padded::new([0, 1, 2].map(|i| k[i][i])));
+        let diagonal = diagonal.iter().map(|k| Padded::from(k.diagonal()));
         Self {
             frame: Frame { lead: 0.0, dt: 0.0, angle: 0.0, with_hub: false },
             eta: system.solid.kelvin_voigt(),

@@ -52,7 +52,7 @@ impl Implicit {
             }
             let (mut solved, scale) = self.residual(system, nodes, span, [old, hub], &mut load);
             self.force_on_hub(system, span, &load, hub);
-            let norm = self.norm();
+            let norm = self.residual_norm();
             // forces that nothing balances yet are forces too
             largest = largest.max(scale).max(norm);
             at.residual = if norm > 0.0 { norm / largest } else { norm };
@@ -266,9 +266,9 @@ impl Implicit {
     }
 
     /// Norm of the residual (N), the hub's force included.
-    fn norm(&self) -> f64 {
+    fn residual_norm(&self) -> f64 {
         let [force, _] = self.residual.hub;
-        let square = |f: &Padded| f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        let square = |f: &Padded| f.vector().norm_squared();
         (exact_sum::sum(self.residual.nodes.iter().map(square)) + force * force).sqrt()
     }
 }

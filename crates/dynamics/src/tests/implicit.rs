@@ -6,6 +6,7 @@ use crate::{Hub, Spin};
 use contact::{BodyMaterial, ContactError, ExactContact, ExactSettings};
 use friction::Coulomb;
 use mesh::{Mesh, Padded};
+use nalgebra::Vector3;
 use solid::{Element, Level, Solid, Viscosity};
 
 /// A cube that breathes.
@@ -13,7 +14,7 @@ fn breathing(longer: f64) -> Setup {
     let mesh = mesh::block([3, 3, 3], [3e-3; 3]);
     let mut setup = free_body(&mesh, longer, Vec::new(), QuietEnd::default());
     for (v, x) in setup.velocity.iter_mut().zip(&mesh.nodes) {
-        *v = Padded::new(x.map(|c| 1e-3 * (c / 1.5e-3 - 1.0)));
+        *v = Padded::from(x.map(|c| 1e-3 * (c / 1.5e-3 - 1.0)));
     }
     setup
 }
@@ -65,7 +66,7 @@ fn a_free_cube_moves_as_by_explicit_steps_up_to_the_square_of_the_step() {
 fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     let upper = mesh::block([2, 2, 2], [2e-3; 3]);
     let mut lower = mesh::block([3, 3, 2], [3e-3, 3e-3, 2e-3]);
-    lower.nodes.iter_mut().for_each(|x| *x = [x[0] - 0.6e-3, x[1] - 0.4e-3, x[2] - 2e-3]);
+    lower.nodes.iter_mut().for_each(|x| *x -= Vector3::new(0.6e-3, 0.4e-3, 2e-3));
     let mesh = mesh::join(&[upper, lower]);
     let material =
         BodyMaterial { bulk_modulus: super::STEEL.bulk(), density: super::STEEL.density };
@@ -79,7 +80,8 @@ fn cubes(mu: f64) -> Result<(Mesh, Setup), ContactError> {
     let solid =
         Solid::new(&mesh, &materials, element, Viscosity::default(), Level::detect()).unwrap();
     let n = mass.len();
-    let weight = crate::Load::weight(&mass, 0..mesh.bodies[0].nodes.end, [2e6, 0.0, -1e7]);
+    let weight =
+        crate::Load::weight(&mass, 0..mesh.bodies[0].nodes.end, Vector3::new(2e6, 0.0, -1e7));
     let below = |node: &usize| mesh.nodes[*node][2] < -1.9e-3;
     let held = (0..n).filter(below).map(|node| node as u32).collect();
     let system = crate::System {

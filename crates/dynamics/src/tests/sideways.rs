@@ -94,7 +94,7 @@ fn an_elastic_body_on_a_hub_that_turns_keeps_its_balance_of_energy_with_dashpots
         setup.system.mass_damping = damping;
         let motion = RigidMotion::new(setup.system.hub.as_ref().unwrap());
         for (v, x) in setup.velocity.iter_mut().zip(&mesh.nodes) {
-            let ([vx, vy, vz, _], _) = motion.at(Padded::new(*x));
+            let ([vx, vy, vz, _], _) = motion.at(Padded::from(*x));
             *v = Padded::new([vx, vy, vz]);
         }
         let mut simulation = Simulation::new(setup);
@@ -129,7 +129,7 @@ fn the_upper_body_slips_over_the_lower_by_minus_spin_y_and_spin_x_and_the_drift(
     // the dashpots know the same motion
     let motion = RigidMotion::new(simulation.hub().unwrap());
     for (v, x) in simulation.velocity().iter().zip(&mesh.nodes) {
-        let (rigid, _) = motion.at(Padded::new(*x));
+        let (rigid, _) = motion.at(Padded::from(*x));
         assert!((0..3).all(|i| (v[i] - rigid[i]).abs() < 1e-6 * speed), "{v:?} {rigid:?}");
     }
 }

@@ -12,6 +12,7 @@ use crate::grid::nodes_of;
 use crate::near::{duplicates, hanging};
 use crate::quality::scaled_jacobian;
 use crate::{Body, Face, Mesh, MeshError, Surface};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Distance below which two nodes of a foreign mesh coincide, over the shortest edge of the body. Larger than for
@@ -123,7 +124,7 @@ fn check_arrays(foreign: &Foreign) -> Result<(), ImportError> {
         return Err(Fault::Unsupported { what, remedy }.nowhere());
     }
     if let Some(i) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        return Err(nodes.fault(i, Fault::NotFinite { node: nodes.id(i), point: points[i] }));
+        return Err(nodes.fault(i, Fault::NotFinite { node: nodes.id(i), point: points[i].into() }));
     }
     for (e, hex) in hexes.iter().enumerate() {
         let element = elements.id(e);
@@ -250,14 +251,13 @@ fn renumbered(
         let ours: Vec<usize> = (0..owner.len()).filter(|&e| owner[e] == body).collect();
         let corners =
             |e: usize| foreign.hexes[e].map(|n| new_index[n as usize].unwrap_or_default());
-        let middles: Vec<[f64; 3]> = ours
+        let middles: Vec<Vector3<f64>> = ours
             .iter()
             .map(|&e| {
                 // sorted, so that the sum does not depend on the element's numbering
                 let mut corners = corners(e);
                 corners.sort_unstable();
-                let add = |a: usize| corners.iter().map(|&n| mesh.nodes[n as usize][a]).sum();
-                [add(0), add(1), add(2)]
+                corners.iter().map(|&n| mesh.at(n)).sum()
             })
             .collect();
         let order = along_curve(&middles);
@@ -289,7 +289,7 @@ fn turn_inside_out(imported: &mut Imported) -> Result<(), ImportError> {
     let Imported { mesh, elements, notes, .. } = imported;
     let (mut turned, mut first) = (0, None);
     for (e, hex) in mesh.hexes.iter_mut().enumerate() {
-        let shape = |hex: &[u32; 8]| scaled_jacobian(&hex.map(|n| mesh.nodes[n as usize].into()));
+        let shape = |hex: &[u32; 8]| scaled_jacobian(&hex.map(|n| mesh.nodes[n as usize]));
         let (corner, value) = shape(hex);
         if value > FLAT {
             continue;
@@ -322,8 +322,12 @@ fn check_body(imported: &Imported, index: usize) -> Result<Vec<Face>, ImportErro
         // in the order of the file's numbers
         let (a, b) = if nodes.id(a) <= nodes.id(b) { (a, b) } else { (b, a) };
         let (first, second) = (nodes.id(a), nodes.id(b));
-        let fault =
-            Fault::Coincident { first, second, body: name, point: mesh.nodes[b].map(digits) };
+        let fault = Fault::Coincident {
+            first,
+            second,
+            body: name,
+            point: mesh.nodes[b].map(digits).into(),
+        };
         return Err(nodes.fault(b, fault));
     }
     let outside = boundary(mesh, body).map_err(|error| match error {

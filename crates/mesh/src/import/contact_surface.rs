@@ -86,7 +86,7 @@ pub(super) fn check(
         // a band that does not close round the disk has one border, which does not encircle the axis
         Some(hole) if !open || holes.len() > 1 => {
             let face = beyond(hole[0]).unwrap_or(*inside[0]);
-            let at = imported.mesh.nodes[hole[0][0] as usize].map(digits);
+            let at = imported.mesh.nodes[hole[0][0] as usize].map(digits).into();
             let fault = Fault::Hole { role, name, edges: hole.len(), at, element: element(&face) };
             Err(at_face(&face, fault))
         }

@@ -5,6 +5,7 @@ use super::error::{Fault, ImportError, SetRole};
 use super::unit::Unit;
 use crate::check::boundary;
 use crate::error::digits;
+use crate::geometry::hull;
 use crate::grid::nodes_of;
 use crate::{
     Bar, Disk, Face, FineZone, Mesh, Parameter, SmoothSurface, Surface, quad_corner_areas,
@@ -63,7 +64,7 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
     ] {
         let mesh = &imported.mesh;
         let all = mesh.bodies[body].surfaces[ours].faces.clone();
-        let inside = |f: &&Face| in_zone(&middle(mesh, f), body, shape);
+        let inside = |f: &&Face| in_zone(middle(mesh, f), body, shape);
         let faces: Vec<Face> = all.iter().filter(inside).copied().collect();
         // an empty sum is -0.0, which would be printed
         let area = 0.0 + faces.iter().map(|f| face_area(mesh, f)).sum::<f64>();
@@ -104,13 +105,12 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
 fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
     let Shape { disk, bar, zone, .. } = *shape;
     let mesh = &imported.mesh;
-    let tread = extent(mesh, &mesh.bodies[0].node_sets["tread"]);
-    let top = extent(mesh, &mesh.bodies[1].node_sets["top"]);
-    let whole = [0, 1].map(|b| {
-        let nodes = &mesh.bodies[b].nodes;
-        extent(mesh, &(nodes.start as u32..nodes.end as u32).collect::<Vec<_>>())
-    });
-    let span = |e: &Extent, a: usize| e.high[a] - e.low[a];
+    let of_set = |body: usize, set: &str| {
+        hull(mesh.bodies[body].node_sets[set].iter().map(|&n| &mesh.nodes[n as usize]))
+    };
+    let (tread, top) = (of_set(0, "tread"), of_set(1, "top"));
+    let whole = [0, 1].map(|b: usize| hull(&mesh.nodes[mesh.bodies[b].nodes.clone()]));
+    let span = |[low, high]: &[Vector3<f64>; 2], a: usize| high[a] - low[a];
     let close = |x: f64, y: f64| (x - y).abs() <= SIZE * y.abs();
 
     let radius = 0.5 * span(&tread, 0);
@@ -125,10 +125,10 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
         }
         .nowhere());
     }
-    let [x, z] = [0, 2].map(|a| 0.5 * (tread.low[a] + tread.high[a]));
+    let axis = 0.5 * (tread[0] + tread[1]);
     let hub = mesh.bodies[0].node_sets["hub"].iter().map(|&n| {
-        let p = mesh.nodes[n as usize];
-        libm::hypot(p[0] - x, p[2] - z)
+        let p = mesh.at(n) - axis;
+        libm::hypot(p.x, p.z)
     });
     let hub = hub.fold(0.0, f64::max);
     let nearly = |what, found: f64, expected: f64, tolerance: f64| {
@@ -137,7 +137,7 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
         }
         Err(Fault::Place { what, found: digits(found), expected }.nowhere())
     };
-    nearly("x of the disk's axis", x, 0.0, SIZE * disk.radius)?;
+    nearly("x of the disk's axis", axis.x, 0.0, SIZE * disk.radius)?;
     for (parameter, found, expected) in [
         (Parameter::DiskWidth, span(&whole[0], 1), disk.width),
         (Parameter::HubRadius, hub, disk.hub_radius),
@@ -149,40 +149,24 @@ fn sizes(imported: &Imported, shape: &Shape) -> Result<(), ImportError> {
             return Err(size(parameter, found, expected).nowhere());
         }
     }
-    nearly("rear end of the bar (x)", whole[1].low[0], bar.start, SIZE * bar.length)?;
-    for (what, extent, width) in [
+    nearly("rear end of the bar (x)", whole[1][0].x, bar.start, SIZE * bar.length)?;
+    for (what, [low, high], width) in [
         ("middle of the disk's width (y)", &whole[0], disk.width),
         ("middle of the bar's width (y)", &whole[1], bar.width),
     ] {
-        nearly(what, 0.5 * (extent.low[1] + extent.high[1]), 0.0, SIZE * width)?;
+        nearly(what, 0.5 * (low.y + high.y), 0.0, SIZE * width)?;
     }
     // An apex between two nodes lies the sag of half an element beyond them.
     let sag = |curvature: f64| 0.125 * zone.size * zone.size * curvature;
     let across = |crown: Option<f64>| crown.map_or(0.0, f64::recip);
     let place = PLACE * zone.size;
     let apex = |crown| place + 4.0 * (sag(1.0 / disk.radius) + sag(across(crown)));
-    nearly("lowest point of the tread (z)", tread.low[2], 0.0, apex(disk.crown))?;
-    nearly("apex of the bar's top (z)", top.high[2], 0.0, apex(bar.crown))
+    nearly("lowest point of the tread (z)", tread[0].z, 0.0, apex(disk.crown))?;
+    nearly("apex of the bar's top (z)", top[1].z, 0.0, apex(bar.crown))
 }
 
 fn size(parameter: Parameter, found: f64, expected: f64) -> Fault {
     Fault::Size { parameter, found: digits(found), expected }
-}
-
-struct Extent {
-    low: [f64; 3],
-    high: [f64; 3],
-}
-
-fn extent(mesh: &Mesh, nodes: &[u32]) -> Extent {
-    let mut e = Extent { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-    for &n in nodes {
-        for a in 0..3 {
-            e.low[a] = e.low[a].min(mesh.nodes[n as usize][a]);
-            e.high[a] = e.high[a].max(mesh.nodes[n as usize][a]);
-        }
-    }
-    e
 }
 
 /// Adds the faces and nodes of the bar's plane ends, if they are asked for.
@@ -193,10 +177,9 @@ fn ends(imported: &mut Imported, shape: &Shape) -> Result<(), ImportError> {
     let mesh = &imported.mesh;
     let bar = &mesh.bodies[1];
     let outside = boundary(mesh, bar).map_err(|fault| Fault::Mesh(fault).nowhere())?;
-    let all: Vec<u32> = (bar.nodes.start as u32..bar.nodes.end as u32).collect();
-    let Extent { low, high } = extent(mesh, &all);
+    let [low, high] = hull(&mesh.nodes[bar.nodes.clone()]);
     let mut ends = Vec::new();
-    for (which, at) in [("rear", low[0]), ("front", high[0])] {
+    for (which, at) in [("rear", low.x), ("front", high.x)] {
         let plane = |n: &u32| (mesh.nodes[*n as usize][0] - at).abs() <= PLANE * shape.bar.length;
         let faces: Vec<Face> =
             outside.iter().filter(|f| f.nodes.iter().all(plane)).copied().collect();
@@ -214,21 +197,21 @@ fn ends(imported: &mut Imported, shape: &Shape) -> Result<(), ImportError> {
     Ok(())
 }
 
-fn middle(mesh: &Mesh, face: &Face) -> [f64; 3] {
-    [0, 1, 2].map(|a| 0.25 * face.nodes.iter().map(|&n| mesh.nodes[n as usize][a]).sum::<f64>())
+fn middle(mesh: &Mesh, face: &Face) -> Vector3<f64> {
+    0.25 * face.nodes.iter().map(|&n| mesh.at(n)).sum::<Vector3<f64>>()
 }
 
 fn face_area(mesh: &Mesh, face: &Face) -> f64 {
-    quad_corner_areas(&face.nodes.map(|n| mesh.nodes[n as usize])).iter().sum()
+    quad_corner_areas(&face.nodes.map(|n| mesh.at(n))).iter().sum()
 }
 
 /// Whether a point of a contact surface lies in the zone; on the disk its arc length from the first contact
 /// takes the place of x, as in the generated mesh.
-fn in_zone(p: &[f64; 3], body: usize, shape: &Shape) -> bool {
+fn in_zone(p: Vector3<f64>, body: usize, shape: &Shape) -> bool {
     let Shape { disk, zone, .. } = *shape;
-    let along = if body == 0 { disk.radius * libm::atan2(p[0], disk.radius - p[2]) } else { p[0] };
+    let along = if body == 0 { disk.radius * libm::atan2(p.x, disk.radius - p.z) } else { p.x };
     let slack = 1e-6 * zone.size;
     along >= zone.start - slack
         && along <= zone.start + zone.length + slack
-        && p[1].abs() <= 0.5 * zone.width + slack
+        && p.y.abs() <= 0.5 * zone.width + slack
 }

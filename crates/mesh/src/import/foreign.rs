@@ -1,13 +1,14 @@
 //! A mesh as a file holds it.
 
 use super::error::{Fault, ImportError, Place};
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 
 /// A mesh as a file or a program gives it, not checked yet.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Foreign {
     /// Coordinates (x, y, z) of the nodes, in the unit of the file.
-    pub points: Vec<[f64; 3]>,
+    pub points: Vec<Vector3<f64>>,
     /// Corners of each hexahedron, as indices in `points`, in `VTK_HEXAHEDRON` order, which is also that of
     /// Gmsh, Abaqus C3D8 and LS-DYNA.
     pub hexes: Vec<[u32; 8]>,
@@ -74,7 +75,7 @@ impl Foreign {
     /// `VTK_HEXAHEDRON` order, and named sets. Messages name nodes and elements by their indices, counted
     /// from 0. [`bodies`](super::bodies()) checks the mesh.
     pub fn from_arrays(
-        points: Vec<[f64; 3]>,
+        points: Vec<Vector3<f64>>,
         hexes: Vec<[u32; 8]>,
         sets: BTreeMap<String, Set>,
     ) -> Self {

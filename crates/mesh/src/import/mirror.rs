@@ -1,6 +1,7 @@
 //! The whole mesh of which a file holds the half y >= 0.
 
 use super::foreign::{Foreign, Labels};
+use nalgebra::Vector3;
 use std::collections::BTreeSet;
 
 impl Foreign {
@@ -13,13 +14,13 @@ impl Foreign {
         let mut image: Vec<u32> = (0..nodes as u32).collect();
         let mut copied = Vec::new();
         for n in 0..nodes {
-            let [x, y, z] = self.points[n];
-            if y.abs() < near {
-                self.points[n][1] = 0.0;
+            let point = self.points[n];
+            if point.y.abs() < near {
+                self.points[n].y = 0.0;
                 continue;
             }
             image[n] = self.points.len() as u32;
-            self.points.push([x, -y, z]);
+            self.points.push(Vector3::new(point.x, -point.y, point.z));
             copied.push(n);
         }
         self.nodes.repeat(copied.into_iter());

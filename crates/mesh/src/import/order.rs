@@ -1,5 +1,7 @@
 //! A numbering of points by which neighbours are near in memory.
 
+use crate::geometry::hull;
+use nalgebra::Vector3;
 use std::cmp::Ordering;
 
 /// Bits per coordinate of a cell of the curve.
@@ -10,17 +12,11 @@ const BITS: u32 = 21;
 /// each other in it.
 ///
 /// Source: Morton (1966), "A computer oriented geodetic data base", IBM.
-pub(crate) fn along_curve(points: &[[f64; 3]]) -> Vec<u32> {
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for p in points {
-        for a in 0..3 {
-            low[a] = low[a].min(p[a]);
-            high[a] = high[a].max(p[a]);
-        }
-    }
-    let extent = (0..3).map(|a| high[a] - low[a]).fold(f64::MIN_POSITIVE, f64::max);
+pub(crate) fn along_curve(points: &[Vector3<f64>]) -> Vec<u32> {
+    let [low, high] = hull(points);
+    let extent = (high - low).iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let most = ((1u64 << BITS) - 1) as f64;
-    let cell = |p: &[f64; 3]| {
+    let cell = |p: &Vector3<f64>| {
         let [x, y, z] = [0, 1, 2].map(|a| (most * ((p[a] - low[a]) / extent)) as u64);
         spread(x) | spread(y) << 1 | spread(z) << 2
     };
@@ -33,7 +29,7 @@ pub(crate) fn along_curve(points: &[[f64; 3]]) -> Vec<u32> {
     order.into_iter().map(|(_, i)| i).collect()
 }
 
-fn by_coordinates(p: [f64; 3], q: [f64; 3]) -> Ordering {
+fn by_coordinates(p: Vector3<f64>, q: Vector3<f64>) -> Ordering {
     (0..3).map(|a| p[a].total_cmp(&q[a])).find(|o| o.is_ne()).unwrap_or(Ordering::Equal)
 }
 
@@ -58,21 +54,23 @@ mod tests {
 
     #[test]
     fn the_order_depends_on_the_points_and_not_on_how_they_were_listed() {
-        let points: Vec<[f64; 3]> = (0..60)
+        let points: Vec<Vector3<f64>> = (0..60)
             .map(|i| {
-                [(i % 5) as f64, ((i * 7) % 3) as f64, ((i * 11) % 4) as f64 + 1e-9 * i as f64]
+                let z = ((i * 11) % 4) as f64 + 1e-9 * i as f64;
+                Vector3::new((i % 5) as f64, ((i * 7) % 3) as f64, z)
             })
             .collect();
         let mut turned = points.clone();
         turned.reverse();
-        let at = |p: &[[f64; 3]]| along_curve(p).iter().map(|&i| p[i as usize]).collect::<Vec<_>>();
+        let at =
+            |p: &[Vector3<f64>]| along_curve(p).iter().map(|&i| p[i as usize]).collect::<Vec<_>>();
         assert_eq!(at(&points), at(&turned));
     }
 
     #[test]
     fn the_eight_corners_of_a_cube_follow_one_another_octant_by_octant() {
-        let corners: Vec<[f64; 3]> =
-            (0..8).map(|i| [i & 1, i >> 1 & 1, i >> 2 & 1].map(f64::from)).rev().collect();
+        let corner = |i| Vector3::from([i & 1, i >> 1 & 1, i >> 2 & 1].map(f64::from));
+        let corners: Vec<_> = (0..8).map(corner).rev().collect();
         assert_eq!(along_curve(&corners), [7, 6, 5, 4, 3, 2, 1, 0]);
     }
 }

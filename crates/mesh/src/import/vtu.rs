@@ -15,6 +15,7 @@ use super::set_arrays::{Cell, SetArray, SetsOfArrays};
 use super::text::{decoded, number};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use nalgebra::Vector3;
 use roxmltree::{Document, Node};
 
 /// Most bytes of an array that one byte of zlib data can stand for.
@@ -144,7 +145,10 @@ impl<'a> File<'a> {
         if !rest.is_empty() {
             return Err(syntax(points, "points have three coordinates each"));
         }
-        let mut foreign = Foreign { points: triples.to_vec(), ..Foreign::default() };
+        let mut foreign = Foreign {
+            points: triples.iter().copied().map(Vector3::from).collect(),
+            ..Foreign::default()
+        };
         let [connectivity, offsets, types]: [Vec<i64>; 3] =
             [cell("connectivity")?, cell("offsets")?, cell("types")?];
         if offsets.len() != types.len() {

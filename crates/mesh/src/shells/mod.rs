@@ -22,6 +22,7 @@ use crate::{Body, Face, FineZone, Mesh, MeshError, Surface};
 use build::Draft;
 pub(crate) use build::{BOTTOM, FRONT, REAR, TOP, ZONE};
 use fan::{Fan, HIGH, LOW, Sizes};
+use nalgebra::Vector3;
 use plan::{Bulk, S};
 use std::collections::BTreeMap;
 
@@ -61,7 +62,7 @@ pub(crate) struct Shells {
 pub(crate) fn shells(
     extent: &Extent<'_>,
     zone: &FineZone,
-    point: impl Fn([f64; 3]) -> [f64; 3],
+    point: impl Fn([f64; 3]) -> Vector3<f64>,
 ) -> Result<Shells, MeshError> {
     let FineZone { size, .. } = *zone;
     let many = |estimate| MeshError::TooManyElements { body: extent.name, size, estimate };

@@ -2,24 +2,21 @@
 
 use super::Solid;
 use crate::element_stiffness;
+use nalgebra::Matrix3;
 
 impl Solid {
     /// The 3x3 diagonal blocks of the stiffness K of the undeformed state (N/m), one per node; K is that of
     /// [`add_stiffness_product`](Self::add_stiffness_product).
-    pub fn stiffness_diagonal(&self) -> Vec<[[f64; 3]; 3]> {
-        let mut diagonal = vec![[[0.0; 3]; 3]; self.reference.len()];
+    pub fn stiffness_diagonal(&self) -> Vec<Matrix3<f64>> {
+        let mut diagonal = vec![Matrix3::zeros(); self.reference.len()];
         for (body, (range, material)) in self.bodies.iter().enumerate() {
             for element in range.clone() {
                 let hex = self.blocks.hex(body, element);
-                let x = hex.map(|n| self.reference[n as usize].xyz());
+                let x = hex.map(|n| self.reference[n as usize].vector());
                 let k = element_stiffness(&x, material, self.formulation(body, element));
                 for (corner, node) in hex.iter().enumerate() {
-                    let block = &mut diagonal[*node as usize];
-                    for i in 0..3 {
-                        for j in 0..3 {
-                            block[i][j] += k[3 * corner + i][3 * corner + j];
-                        }
-                    }
+                    let block = Matrix3::from_fn(|i, j| k[3 * corner + i][3 * corner + j]);
+                    diagonal[*node as usize] += block;
                 }
             }
         }
@@ -56,8 +53,11 @@ mod tests {
                 let mut y = vec![Padded::ZERO; mesh.nodes.len()];
                 solid.add_stiffness_product(&x, &mut y);
                 for j in 0..3 {
-                    let error = y[node][j] / 1e-13 - diagonal[node][j][i];
-                    assert!(error.abs() < 1e-9 * diagonal[node][i][i], "{node} {i} {j} {error:e}");
+                    let error = y[node][j] / 1e-13 - diagonal[node][(j, i)];
+                    assert!(
+                        error.abs() < 1e-9 * diagonal[node][(i, i)],
+                        "{node} {i} {j} {error:e}"
+                    );
                 }
             }
         }

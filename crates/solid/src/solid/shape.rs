@@ -4,10 +4,11 @@
 use super::Solid;
 use crate::formulation::Volumetric;
 use crate::gauss::gauss_points;
-use crate::geometry::{cross, displacement_gradient, dot, mean_gradient};
+use crate::geometry::{displacement_gradient, mean_gradient};
 use crate::stiffness::hourglass_shapes;
-use crate::stress::{deformation, determinant, green, trace};
+use crate::stress::{deformation, green};
 use mesh::Padded;
+use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
 /// The state of one element.
@@ -30,18 +31,17 @@ const NEIGHBOURS: [[usize; 3]; 8] =
 
 /// The triple product of the three edges at each corner (m^3): det(dx/dxi) there up to a constant factor and sign,
 /// which cancel in a ratio.
-fn corner_products(x: &[[f64; 3]; 8]) -> [f64; 8] {
+fn corner_products(x: &[Vector3<f64>; 8]) -> [f64; 8] {
     std::array::from_fn(|corner| {
-        let edge = |other: usize| [0, 1, 2].map(|i| x[other][i] - x[corner][i]);
-        let [a, b, c] = NEIGHBOURS[corner].map(edge);
-        dot(a, cross(b, c))
+        let [a, b, c] = NEIGHBOURS[corner].map(|other| x[other] - x[corner]);
+        a.dot(&b.cross(&c))
     })
 }
 
 /// Smallest det F at the corners. At a corner of a trilinear element, det F is the triple product of the deformed edges
 /// over that of the undeformed ones. NaN if a displacement is NaN.
-fn corner_ratio(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> f64 {
-    let deformed = std::array::from_fn(|c| [0, 1, 2].map(|i| x[c][i] + u[c][i]));
+fn corner_ratio(x: &[Vector3<f64>; 8], u: &[Vector3<f64>; 8]) -> f64 {
+    let deformed = std::array::from_fn(|c| x[c] + u[c]);
     let ratios = corner_products(&deformed).into_iter().zip(corner_products(x));
     ratios.map(|(now, reference)| now / reference).fold(f64::INFINITY, worse)
 }
@@ -53,11 +53,11 @@ fn worse(a: f64, b: f64) -> f64 {
 
 /// K_h/2 sum q_a . q_a (J) with the amplitudes q_a = sum u_I gamma_aI and K_h = kappa M
 /// B_iI B_iI/(24 V); `modulus` is kappa M (Pa), M of [`crate::Material::hourglass_modulus`].
-fn hourglass_energy(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8], modulus: f64) -> f64 {
+fn hourglass_energy(x: &[Vector3<f64>; 8], u: &[Vector3<f64>; 8], modulus: f64) -> f64 {
     let (volume, b) = mean_gradient(x);
     let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
     let amplitudes = hourglass_shapes(x, volume, &b)
-        .map(|gamma| [0, 1, 2].map(|i| gamma.iter().zip(u).map(|(g, u)| g * u[i]).sum::<f64>()));
+        .map(|gamma| gamma.iter().zip(u).map(|(g, u)| *g * u).sum::<Vector3<f64>>());
     let square: f64 = amplitudes.iter().flatten().map(|q| q * q).sum();
     0.5 * modulus * squares / (24.0 * volume) * square
 }
@@ -141,24 +141,24 @@ impl Solid {
         let material = &self.bodies[body].1;
         let (x, u) = self.corners(displacement, body, element);
         // lambda/2 theta^2 + G E:E
-        let density = |e: &[[f64; 3]; 3], theta: f64| {
-            let square: f64 = e.iter().flatten().map(|c| c * c).sum();
+        let density = |e: &Matrix3<f64>, theta: f64| {
+            let square: f64 = e.iter().map(|c| c * c).sum();
             0.5 * material.lame() * theta * theta + material.shear() * square
         };
         let corner_ratio = corner_ratio(&x, &u);
         if self.blocks.is_full(body, element) {
             let points = gauss_points(&x).map(|p| (p.volume, p.displacement_gradient(&u)));
             let volume: f64 = points.iter().map(|(w, _)| w).sum();
-            let mean = points.iter().map(|(w, h)| w * trace(&green(h))).sum::<f64>() / volume;
+            let mean = points.iter().map(|(w, h)| w * green(h).trace()).sum::<f64>() / volume;
             let (mut now, mut strain_energy) = (0.0, 0.0);
             for (w, h) in &points {
                 let e = green(h);
                 let theta = match self.volumetric {
-                    Volumetric::Full => trace(&e),
+                    Volumetric::Full => e.trace(),
                     Volumetric::Mean => mean,
                 };
                 strain_energy += w * density(&e, theta);
-                now += w * determinant(&deformation(h));
+                now += w * deformation(h).determinant();
             }
             let volume_ratio = now / volume;
             return ElementState {
@@ -172,9 +172,9 @@ impl Solid {
         let e = green(&h);
         let modulus = self.one_point.hourglass * material.hourglass_modulus();
         ElementState {
-            volume_ratio: determinant(&deformation(&h)),
+            volume_ratio: deformation(&h).determinant(),
             corner_ratio,
-            strain_energy: volume * density(&e, trace(&e)),
+            strain_energy: volume * density(&e, e.trace()),
             hourglass_energy: hourglass_energy(&x, &u, modulus),
         }
     }
@@ -186,13 +186,14 @@ mod tests {
 
     use crate::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
     use mesh::Padded;
+    use nalgebra::Vector3;
 
     const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7850.0 };
 
     #[test]
     fn energies_of_the_elements_add_up_to_those_of_the_kernels() {
         let mesh = mesh::block([4, 3, 3], [4e-3, 3e-3, 3e-3]);
-        let wave = |x: &[f64; 3], i: usize| {
+        let wave = |x: &Vector3<f64>, i: usize| {
             1e-5 * libm::sin(900.0 * x[(i + 1) % 3] + i as f64) * libm::cos(700.0 * x[(i + 2) % 3])
         };
         let u: Vec<_> =
@@ -236,7 +237,7 @@ mod tests {
         let [.., corner] = mesh.hexes[element];
         let [first, ..] = mesh.hexes[element];
         let (from, to) = (mesh.nodes[corner as usize], mesh.nodes[first as usize]);
-        u[corner as usize] = Padded::new([0, 1, 2].map(|i| 1.2 * (to[i] - from[i])));
+        u[corner as usize] = Padded::from(1.2 * (to - from));
         let (found, ratio) = solid.most_folded(&u);
         assert!(ratio < 0.0 && mesh.hexes[found].contains(&corner), "{found} {ratio}");
         assert_eq!(solid.element_states(&u)[found].corner_ratio, ratio);

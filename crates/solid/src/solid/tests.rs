@@ -3,6 +3,7 @@ use super::*;
 use crate::stress::cauchy;
 use crate::{lumped_mass, mean_gradient};
 use mesh::{HEX_CORNERS as CORNERS, seven_hex_patch};
+use nalgebra::Matrix3;
 
 mod full;
 
@@ -39,26 +40,15 @@ fn field(mesh: &Mesh, amplitude: f64) -> Vec<Padded> {
         .collect()
 }
 
-fn affine(mesh: &Mesh, h: [[f64; 3]; 3]) -> Vec<Padded> {
-    mesh.nodes
-        .iter()
-        .map(|p| Padded::new([0, 1, 2].map(|i| (0..3).map(|j| h[i][j] * p[j]).sum())))
-        .collect()
+fn affine(mesh: &Mesh, h: Matrix3<f64>) -> Vec<Padded> {
+    mesh.nodes.iter().map(|p| Padded::from(h * p)).collect()
 }
 
-fn rotation(angle: f64) -> [[f64; 3]; 3] {
+fn rotation(angle: f64) -> Matrix3<f64> {
     // about (1, 2, 2)/3, minus the identity
-    let n = [1.0 / 3.0, 2.0 / 3.0, 2.0 / 3.0];
+    let n = Vector3::new(1.0, 2.0, 2.0) / 3.0;
     let (s, c) = libm::sincos(angle);
-    let cross = [[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]];
-    let mut h = [[0.0; 3]; 3];
-    for i in 0..3 {
-        for j in 0..3 {
-            let identity = if i == j { 1.0 } else { 0.0 };
-            h[i][j] = (c - 1.0) * identity + s * cross[i][j] + (1.0 - c) * n[i] * n[j];
-        }
-    }
-    h
+    (c - 1.0) * Matrix3::identity() + s * n.cross_matrix() + (1.0 - c) * n * n.transpose()
 }
 
 fn largest(f: &[Padded]) -> f64 {
@@ -68,7 +58,7 @@ fn largest(f: &[Padded]) -> f64 {
 #[test]
 fn patch_test_an_affine_displacement_leaves_interior_nodes_in_equilibrium() {
     let mesh = seven_hex_patch();
-    let h = [[1e-3, 0.5e-3, 0.5e-3], [0.5e-3, 1e-3, 0.5e-3], [0.5e-3, 0.5e-3, 1e-3]];
+    let h = Matrix3::new(1e-3, 0.5e-3, 0.5e-3, 0.5e-3, 1e-3, 0.5e-3, 0.5e-3, 0.5e-3, 1e-3);
     let u = affine(&mesh, h);
     for level in LEVELS.into_iter().filter(|l| l.available()) {
         let mut solid = solid(&mesh, level);
@@ -130,31 +120,18 @@ fn force_is_the_derivative_of_the_energy() {
 }
 
 /// The element written out from its definition, without modes: the oracle of the kernel.
-fn textbook_force(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> [[f64; 3]; 8] {
+fn textbook_force(x: &[Vector3<f64>; 8], u: &[Vector3<f64>; 8]) -> [Vector3<f64>; 8] {
     let (volume, b) = mean_gradient(x);
     let (h, _) = displacement_gradient(x, u);
     let f = deformation(&h);
     let stress = {
-        let det = determinant(&f);
+        let det = f.determinant();
         let sigma = cauchy(&h, &STEEL);
         // first Piola P = det F sigma F^-T
-        let s = [
-            [sigma[0], sigma[3], sigma[5]],
-            [sigma[3], sigma[1], sigma[4]],
-            [sigma[5], sigma[4], sigma[2]],
-        ];
-        let inverse_transposed = [
-            crate::geometry::cross(f[1], f[2]).map(|c| c / det),
-            crate::geometry::cross(f[2], f[0]).map(|c| c / det),
-            crate::geometry::cross(f[0], f[1]).map(|c| c / det),
-        ];
-        let mut p = [[0.0; 3]; 3];
-        for i in 0..3 {
-            for j in 0..3 {
-                p[i][j] = (0..3).map(|k| det * s[i][k] * inverse_transposed[k][j]).sum();
-            }
-        }
-        p
+        let [xx, yy, zz, xy, yz, xz] = sigma;
+        let sigma = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+        let inverse = f.try_inverse().unwrap();
+        det * sigma * inverse.transpose()
     };
     let squares: f64 = b.iter().flatten().map(|c| c * c).sum();
     let stiffness = ELEMENT.hourglass * STEEL.p_modulus() * squares / (24.0 * volume);
@@ -164,22 +141,13 @@ fn textbook_force(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8]) -> [[f64; 3]; 8] {
         CORNERS.map(|c| c[0] * c[1]),
         CORNERS.map(|c| c[0] * c[1] * c[2]),
     ];
-    let mut out = [[0.0; 3]; 8];
-    for node in 0..8 {
-        for i in 0..3 {
-            out[node][i] = (0..3).map(|j| stress[i][j] * b[node][j]).sum();
-        }
-    }
+    let mut out = b.map(|b| stress * b);
     for base in bases {
-        let moment: [f64; 3] = [0, 1, 2].map(|j| (0..8).map(|n| base[n] * x[n][j]).sum());
-        let gamma: Vec<f64> = (0..8)
-            .map(|n| base[n] - (0..3).map(|j| b[n][j] * moment[j]).sum::<f64>() / volume)
-            .collect();
-        for i in 0..3 {
-            let q: f64 = (0..8).map(|n| gamma[n] * (x[n][i] + u[n][i])).sum();
-            for n in 0..8 {
-                out[n][i] += stiffness * q * gamma[n];
-            }
+        let moment: Vector3<f64> = (0..8).map(|n| base[n] * x[n]).sum();
+        let gamma: Vec<f64> = (0..8).map(|n| base[n] - b[n].dot(&moment) / volume).collect();
+        let q: Vector3<f64> = (0..8).map(|n| gamma[n] * (x[n] + u[n])).sum();
+        for n in 0..8 {
+            out[n] += stiffness * gamma[n] * q;
         }
     }
     out
@@ -192,8 +160,7 @@ fn every_level_agrees_with_the_textbook_element() {
     let u = field(&mesh, 0.01);
     let mut expected = vec![[0.0; 3]; mesh.nodes.len()];
     for hex in &mesh.hexes {
-        let f =
-            textbook_force(&hex.map(|n| mesh.nodes[n as usize]), &hex.map(|n| u[n as usize].xyz()));
+        let f = textbook_force(&hex.map(|n| mesh.at(n)), &hex.map(|n| u[n as usize].vector()));
         for (n, f) in hex.iter().zip(f) {
             for i in 0..3 {
                 expected[*n as usize][i] -= f[i];
@@ -269,12 +236,12 @@ fn viscous_stresses_dissipate_and_vanish_in_rigid_rotation() {
     let mut f = vec![Padded::ZERO; mesh.nodes.len()];
     let u = affine(&mesh, rotation(0.7));
     // velocity of a rotation of the turned body: omega x (X + u)
-    let omega = [10.0, -20.0, 30.0];
+    let omega = Vector3::new(10.0, -20.0, 30.0);
     let spin: Vec<_> = mesh
         .nodes
         .iter()
         .zip(&u)
-        .map(|(p, u)| Padded::new(crate::geometry::cross(omega, [0, 1, 2].map(|i| p[i] + u.0[i]))))
+        .map(|(p, u)| Padded::from(omega.cross(&(p + u.vector()))))
         .collect();
     solid.subtract_internal_force(&u, &spin, &mut f, false);
     assert!(largest(&f) < 1e-12 * STEEL.young, "{:e}", largest(&f));
@@ -289,7 +256,7 @@ fn linear_bulk_viscosity_of_a_compressed_cube_is_b1_rho_cp_h_rate() {
     let viscosity = Viscosity { bulk_linear: 0.06, ..Viscosity::default() };
     let mut solid = Solid::new(&mesh, &[STEEL], ELEMENT, viscosity, Level::detect()).unwrap();
     let rate = -3.0;
-    let v = affine(&mesh, [[rate, 0.0, 0.0], [0.0; 3], [0.0; 3]]);
+    let v = affine(&mesh, Matrix3::from_diagonal(&Vector3::new(rate, 0.0, 0.0)));
     let u = vec![Padded::ZERO; 8];
     let mut f = vec![Padded::ZERO; 8];
     solid.subtract_internal_force(&u, &v, &mut f, false);

@@ -74,7 +74,7 @@ fn nodes(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let unit = cards.units().length();
     cards.keyword("NODE");
     let places = (0..).zip(&rolling.model.mesh.nodes);
-    places.for_each(|(n, at)| cards.node(n, at.map(|x| x / unit)));
+    places.for_each(|(n, at)| cards.node(n, (at / unit).into()));
     cards.node(rolling.axle(), [0.0, 0.0, rolling.case.disk.radius / unit]);
 }
 

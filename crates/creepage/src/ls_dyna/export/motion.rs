@@ -155,7 +155,7 @@ fn rigid_hub(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     let radius = case.disk.hub_radius;
     let (mut mass, mut moments) = (own, [0.25, 0.5, 0.25].map(|part| part * own * radius * radius));
     for &n in &model.hub {
-        let [x, y, z] = model.mesh.nodes[n as usize];
+        let [x, y, z] = model.mesh.at(n).into();
         let (m, z) = (model.mass[n as usize], z - height);
         mass += m;
         let about = [y * y + z * z, x * x + z * z, x * x + y * y];

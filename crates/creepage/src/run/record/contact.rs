@@ -10,6 +10,7 @@ use crate::run::error::RunError;
 use crate::run::means::Means;
 use contact::NodalContact;
 use dynamics::StepReport;
+use nalgebra::Vector3;
 use output::layout::{ContactFields, HISTORY, Pairing, file};
 use output::{
     BackgroundWriter, Checkpoint, FieldSpec, Kept, OutputError, Results, RunFiles, Snapshot,
@@ -144,11 +145,11 @@ impl ContactRecord {
     pub(crate) fn write(
         &mut self,
         time: f64,
-        displacement: &[[f64; 3]],
-        velocity: &[[f64; 3]],
+        displacement: &[Vector3<f64>],
+        velocity: &[Vector3<f64>],
     ) -> Result<(), RunError> {
         let Self { tables: [disk, bar], pairing, images, .. } = &*self;
-        let sides = |values: &'_ [[f64; 3]]| {
+        let sides = |values: &[Vector3<f64>]| {
             let (disk, bar) = values.split_at(disk.nodes.len());
             images.vectors([disk, bar])
         };

@@ -1,5 +1,7 @@
 //! The recorded surfaces as wholes: where half of the bodies is modelled, their nodes have mirror images in y = 0.
 
+use nalgebra::Vector3;
+
 /// Which nodes of a table of each side have mirror images; none where the bodies are modelled whole.
 pub(super) struct Images {
     /// How many rows each table has.
@@ -10,8 +12,8 @@ pub(super) struct Images {
 
 impl Images {
     /// Of tables with these undeformed positions (m) of nodes, of `half` the bodies or of whole ones.
-    pub(super) fn new(half: bool, points: &[Vec<[f64; 3]>; 2]) -> Self {
-        let off_plane = |points: &Vec<[f64; 3]>| {
+    pub(super) fn new(half: bool, points: &[Vec<Vector3<f64>>; 2]) -> Self {
+        let off_plane = |points: &Vec<Vector3<f64>>| {
             let rows = 0..points.len() as u32;
             rows.filter(|&row| half && points[row as usize][1] != 0.0).collect()
         };
@@ -24,19 +26,19 @@ impl Images {
     }
 
     /// Values of a side with those of the images.
-    pub(super) fn of_side<T: Copy>(
+    pub(super) fn of_side<T: Copy, U: From<T>>(
         &self,
         side: usize,
         values: &[T],
         image: fn(T) -> T,
-        whole: &mut Vec<T>,
+        whole: &mut Vec<U>,
     ) {
-        whole.extend_from_slice(values);
-        whole.extend(self.imaged[side].iter().map(|&row| image(values[row as usize])));
+        whole.extend(values.iter().map(|&value| U::from(value)));
+        whole.extend(self.imaged[side].iter().map(|&row| U::from(image(values[row as usize]))));
     }
 
     /// Values of both sides, each with those of its images after it.
-    fn both<T: Copy>(&self, values: [&[T]; 2], image: fn(T) -> T) -> Vec<T> {
+    fn both<T: Copy, U: From<T>>(&self, values: [&[T]; 2], image: fn(T) -> T) -> Vec<U> {
         let mut whole = Vec::with_capacity(self.counts().iter().sum());
         for (side, values) in values.into_iter().enumerate() {
             self.of_side(side, values, image, &mut whole);
@@ -49,10 +51,9 @@ impl Images {
         self.both(values, |value| value)
     }
 
-    /// Vectors of both sides.
-    pub(super) fn vectors<V: Copy + Into<[f64; 3]>>(&self, values: [&[V]; 2]) -> Vec<[f64; 3]> {
-        let [first, second] = values.map(|side| side.iter().map(|&v| v.into()).collect::<Vec<_>>());
-        self.both([&first, &second], mirrored)
+    /// Vectors of both sides, as rows of a file.
+    pub(super) fn vectors(&self, values: [&[Vector3<f64>]; 2]) -> Vec<[f64; 3]> {
+        self.both(values, mirrored)
     }
 
     /// Areas of both sides (m^2): a node on the plane has half of its own.
@@ -85,8 +86,8 @@ impl Images {
 }
 
 /// The mirror image of a vector in the plane y = 0.
-pub(super) fn mirrored([x, y, z]: [f64; 3]) -> [f64; 3] {
-    [x, -y, z]
+pub(super) fn mirrored(v: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, -v.y, v.z)
 }
 
 #[cfg(test)]
@@ -96,14 +97,15 @@ mod tests {
     #[test]
     fn the_half_of_a_face_and_its_image_share_the_edge_on_the_plane_and_look_the_same_way() {
         let points = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 2.0, 0.5], [0.0, 2.0, 0.5]];
-        let images = Images::new(true, &[points.clone(), Vec::new()]);
+        let vectors: Vec<_> = points.iter().copied().map(Vector3::from).collect();
+        let images = Images::new(true, &[vectors.clone(), Vec::new()]);
         assert_eq!(images.counts(), [6, 0]);
-        let whole = images.vectors([&points, &[]]);
+        let whole = images.vectors([&vectors, &[]]);
         assert_eq!(whole[4..], [[1.0, -2.0, 0.5], [0.0, -2.0, 0.5]]);
         assert_eq!(images.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3], [5, 4, 1, 0]]);
         assert_eq!(images.areas([&[1.0; 4], &[]]), [2.0, 2.0, 1.0, 1.0, 1.0, 1.0]);
-        let alone = Images::new(false, &[points.clone(), Vec::new()]);
-        assert_eq!(alone.vectors([&points, &[]]), points);
+        let alone = Images::new(false, &[vectors.clone(), Vec::new()]);
+        assert_eq!(alone.vectors([&vectors, &[]]), points);
         assert_eq!(alone.areas([&[1.0; 4], &[]]), [1.0; 4]);
         assert_eq!(alone.faces(0, &[[0, 1, 2, 3]]), [[0, 1, 2, 3]]);
     }

@@ -8,13 +8,14 @@ use crate::case::schema::Case;
 use crate::scenario::{BAR, DISK};
 use contact::NodalContact;
 use contact::patch::{self, PatchShape};
+use nalgebra::Vector3;
 
 /// Where the patch is measured, and the scales.
 pub(super) struct Patch {
     shape: PatchShape,
     /// Undeformed positions of the bar's nodes (m), and those with their images.
-    bar: Vec<[f64; 3]>,
-    whole_bar: Vec<[f64; 3]>,
+    bar: Vec<Vector3<f64>>,
+    whole_bar: Vec<Vector3<f64>>,
     /// Buffer: pressures (Pa) there.
     whole_pressure: Vec<f64>,
     /// Rows of the bar's table on the centre line, by x.
@@ -124,7 +125,7 @@ impl Patch {
 
 /// Nodes of the line along x that lies nearest to `y` (m), in ascending x. Of two lines at the same distance, as on a
 /// slice or with an odd number of elements across, the one further along +y.
-fn centreline(points: &[[f64; 3]], y: f64, size: f64) -> Vec<usize> {
+fn centreline(points: &[Vector3<f64>], y: f64, size: f64) -> Vec<usize> {
     let least = points.iter().map(|x| (x[1] - y).abs()).fold(f64::INFINITY, f64::min);
     let slack = 0.1 * size;
     let near = |i: usize, y: f64| (points[i][1] - y).abs() <= slack;

@@ -6,6 +6,7 @@ use crate::case::schema::{Case, Rows};
 use crate::run::error::RunError;
 use crate::scenario::{BAR, DISK};
 use contact::NodalContact;
+use nalgebra::Vector3;
 use output::layout::{BODY_NAMES, CONTACT, MORTAR, NODE_TO_FACE, Pairing, attribute, file};
 use output::{Cells, GridSpec, StaticField, TransientGrid};
 
@@ -14,7 +15,7 @@ pub(crate) struct Surfaces<'a> {
     /// Contact at the nodes of each side, which the recorder fills before it writes a record.
     pub(crate) tables: [NodalContact; 2],
     /// Undeformed positions of those nodes (m).
-    pub(crate) points: [Vec<[f64; 3]>; 2],
+    pub(crate) points: [Vec<Vector3<f64>>; 2],
     /// Faces, their nodes as rows of the tables.
     pub(crate) faces: &'a [Vec<[u32; 4]>; 2],
     /// The side at whose nodes conditions are enforced; none where both sides share the pressure.

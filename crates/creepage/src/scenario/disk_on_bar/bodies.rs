@@ -119,9 +119,8 @@ fn sliding(case: &Case, mesh: &Mesh) -> Vec<u32> {
 fn align(mesh: &mut Mesh) -> Result<Vec<[u32; 2]>, mesh::NoSlice> {
     let pairs = mesh::across(mesh)?;
     for &[first, second] in &pairs {
-        let [x, _, z] = mesh.nodes[first as usize];
-        let [ox, _, oz] = &mut mesh.nodes[second as usize];
-        (*ox, *oz) = (x, z);
+        let (from, to) = (mesh.at(first), &mut mesh.nodes[second as usize]);
+        (to.x, to.z) = (from.x, from.z);
     }
     Ok(pairs)
 }

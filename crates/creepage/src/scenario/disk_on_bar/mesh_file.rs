@@ -1,5 +1,6 @@
 //! The mesh of a case that names a mesh file.
 
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -66,7 +67,7 @@ fn own(path: &Path, names: &SetNames) -> Result<Foreign, OutputError> {
     if hexes.len() != rest {
         return Err(damaged("its cells are no hexahedra"));
     }
-    let points = file.points()?;
+    let points: Vec<Vector3<f64>> = file.points()?.into_iter().map(Vector3::from).collect();
     if hexes.as_flattened().iter().any(|&node| node as usize >= points.len()) {
         return Err(damaged("a cell has a point that the file does not have"));
     }

@@ -204,7 +204,13 @@ pub fn start(
     };
     let radius = RollingRadius { nominal, effective };
     let found = KeptState { stability, radius, preload, preload_wall, steps: steps as u64 };
-    assemble(case, model, found, Parts { solid, contact, hub, quiet, displacement, velocity })
+    let system = System {
+        contact: Some(contact),
+        hub: Some(hub),
+        quiet,
+        ..System::free(solid, model.mass.clone())
+    };
+    assemble(case, model, found, system, [displacement, velocity])
 }
 
 /// The simulation in the `state` of a checkpoint, with what was `found` when it began.
@@ -225,46 +231,39 @@ pub fn restart(
             model.penalty_contact(case, scale)?.into()
         }
     };
-    let (hub, quiet) = (hub(case, model, &solid), quiet(model));
+    let system = System {
+        contact: Some(contact),
+        hub: Some(hub(case, model, &solid)),
+        quiet: quiet(model),
+        ..System::free(solid, model.mass.clone())
+    };
     let rest = vec![Padded::ZERO; model.mass.len()];
-    let (displacement, velocity) = (rest.clone(), rest);
-    let parts = Parts { solid, contact, hub, quiet, displacement, velocity };
-    let mut start = assemble(case, model, found, parts)?;
+    let mut start = assemble(case, model, found, system, [rest.clone(), rest])?;
     start.simulation.restore(state)?;
     Ok(start)
 }
 
-/// What a simulation is made of.
-struct Parts {
-    solid: Solid,
-    contact: Method,
-    hub: Hub,
-    quiet: QuietEnd,
-    displacement: Vec<Padded>,
-    velocity: Vec<Padded>,
-}
-
-/// The simulation with its boundary conditions and the limits of its guards.
+/// The simulation of a `system` of bodies, contact, hub and quiet ends, with its boundary conditions and the limits of
+/// its guards.
 fn assemble(
     case: &Case,
     model: &Model,
     found: KeptState,
-    parts: Parts,
+    mut system: System,
+    [displacement, velocity]: [Vec<Padded>; 2],
 ) -> Result<Start, ScenarioError> {
-    let Parts { mut solid, contact, mut hub, quiet, displacement, velocity } = parts;
-    let window = window(case, model, &mut solid)?;
+    let window = window(case, model, &mut system.solid)?;
     let KeptState { stability, radius, preload, preload_wall, steps } = found;
     let dt = case.duration() / steps as f64;
-    hub.spin = spin(case, model, case.drive.speed / radius.effective);
-    hub.vertical = match case.load.mode {
-        LoadMode::Load => Vertical::Load(case.load.normal / model.multiplicity),
-        LoadMode::Height => Vertical::Held,
-    };
-    hub.sideways = sideways(case);
+    if let Some(hub) = &mut system.hub {
+        hub.spin = spin(case, model, case.drive.speed / radius.effective);
+        hub.vertical = match case.load.mode {
+            LoadMode::Load => Vertical::Load(case.load.normal / model.multiplicity),
+            LoadMode::Height => Vertical::Held,
+        };
+        hub.sideways = sideways(case);
+    }
     let system = System {
-        contact: Some(contact),
-        hub: Some(hub),
-        quiet,
         held: model.clamped.clone(),
         fixed: model
             .sliding
@@ -276,7 +275,7 @@ fn assemble(
         upper: model.mesh.bodies[DISK].nodes.clone(),
         mass_damping: case.damping.mass,
         multiplicity: model.multiplicity,
-        ..System::free(solid, model.mass.clone())
+        ..system
     };
     let dt_limit = stability.dt_limit;
     let mut simulation = Simulation::new(Setup { system, displacement, velocity, dt, dt_limit });

@@ -6,7 +6,9 @@ use crate::scenario::error::ScenarioError;
 use crate::scenario::model::{BAR, DISK, Model};
 use crate::scenario::preload::PreloadError;
 use dynamics::{MeshMove, Missed, Window};
+use mesh::geometry::adjugate;
 use mesh::{Chart, Padded, Source};
+use nalgebra::{Matrix2, Vector2};
 use solid::Solid;
 use statics::{LinearStatics, Problem, StaticsError, Supports};
 use std::ops::Range;
@@ -77,8 +79,8 @@ impl RolledBody<'_> {
         let first = self.nodes().start;
         let repeats = |&n: &u32| {
             let n = n as usize;
-            let [s, ..] = self.chart.of(self.model.mesh.nodes[n]);
-            s > front + SLACK || matches!(sources[n - first], Source::Node(_))
+            let along = self.chart.of(self.model.mesh.nodes[n]).x;
+            along > front + SLACK || matches!(sources[n - first], Source::Node(_))
         };
         let zone = &self.model.zones[self.side];
         if zone.iter().flat_map(|face| &face.nodes).all(repeats) {
@@ -96,15 +98,14 @@ impl RolledBody<'_> {
         for face in &self.model.zones[self.side] {
             let areas = mesh::quad_corner_areas(&face.nodes.map(|n| nodes[n as usize]));
             for (&n, area) in face.nodes.iter().zip(areas) {
-                let [s, y, _] = self.chart.of(nodes[n as usize]);
-                let inside = 1.0 - ((s - at) / patch.a).powi(2) - (y / patch.b).powi(2);
+                let q = self.chart.of(nodes[n as usize]);
+                let inside = 1.0 - ((q.x - at) / patch.a).powi(2) - (q.y / patch.b).powi(2);
                 weights.push((n as usize, area * inside.max(0.0).sqrt()));
             }
         }
         let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
         for (n, weight) in weights {
-            let towards = self.chart.directions(nodes[n])[direction];
-            (0..3).for_each(|i| load[n][i] += weight / total * towards[i]);
+            load[n] += weight / total * self.chart.directions(nodes[n]).column(direction);
         }
     }
 
@@ -112,16 +113,15 @@ impl RolledBody<'_> {
     fn spin(&self, load: &mut [Padded]) {
         for n in self.nodes() {
             let place = self.model.mesh.nodes[n];
-            let [.., distance] = self.chart.of(place);
-            let outward = self.chart.directions(place)[OUTWARD];
-            (0..3).for_each(|i| load[n][i] += self.model.mass[n] * distance * outward[i]);
+            let distance = self.chart.of(place)[OUTWARD];
+            let outward = self.chart.directions(place);
+            load[n] += self.model.mass[n] * distance * outward.column(OUTWARD);
         }
     }
 
     /// Components of a vector at a node along the coordinates of the body.
     fn components(&self, n: usize, v: Padded) -> Padded {
-        let directions = self.chart.directions(self.model.mesh.nodes[n]);
-        Padded::new(directions.map(|d| (0..3).map(|i| d[i] * v[i]).sum()))
+        self.chart.directions(self.model.mesh.nodes[n]).tr_mul(&v.vector()).into()
     }
 }
 
@@ -183,7 +183,7 @@ impl AtRest {
             let missed = |(n, source): (usize, &Source)| {
                 let carried = source.of(|m| body.components(m as usize, before[m as usize]));
                 let wanted = body.components(n, after(n));
-                Padded::new([0, 1, 2].map(|i| wanted[i] - carried[i]))
+                Padded::from(wanted.vector() - carried.vector())
             };
             body.nodes().zip(sources).map(missed).collect()
         };
@@ -205,25 +205,20 @@ impl AtRest {
     ) -> impl Fn(usize) -> Padded + 'a {
         // mean displacement of the patch along a unit load, weighted as the load is
         let of_patch = |response: &Response, u: &[Padded]| -> f64 {
-            let work = |n: usize| (0..3).map(|i| response.load[n][i] * u[n][i]).sum::<f64>();
+            let work = |n: usize| response.load[n].vector().dot(&u[n].vector());
             body.nodes().map(work).sum()
         };
-        let [a, b] = &self.after;
-        let missing = [0, 1].map(|i| {
+        let missing = Vector2::from_fn(|i, _| {
             let there = steady.map_or(0.0, |u| of_patch(&self.after[i], u));
             of_patch(&self.before[i], before) - there
         });
-        let compliance = [a, b].map(|load| [a, b].map(|by| of_patch(load, &by.displacement)));
-        let [[aa, ab], [ba, bb]] = compliance;
-        let determinant = aa * bb - ab * ba;
-        let force = [
-            (missing[0] * bb - missing[1] * ab) / determinant,
-            (missing[1] * aa - missing[0] * ba) / determinant,
-        ];
+        let after = &self.after;
+        let compliance = Matrix2::from_fn(|i, j| of_patch(&after[i], &after[j].displacement));
+        let force = adjugate(&compliance) * missing / compliance.determinant();
         move |n| {
-            let steady = steady.map_or(Padded::ZERO, |u| u[n]);
-            let (a, b) = (a.displacement[n], b.displacement[n]);
-            Padded::new([0, 1, 2].map(|i| steady[i] + force[0] * a[i] + force[1] * b[i]))
+            let steady = steady.map_or(Padded::ZERO, |u| u[n]).vector();
+            let [a, b] = after.each_ref().map(|response| response.displacement[n].vector());
+            Padded::from(steady + force[0] * a + force[1] * b)
         }
     }
 }

@@ -13,6 +13,7 @@ use super::foreign::Foreign;
 use super::text::{Text, decoded, number};
 use crate::HEX_FACES;
 use keyword::{Keyword, Name, fields, goes_on};
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// Reads an Abaqus input file. Elements of the C3D8 family are hexahedra; quadrangles in an element set or a
@@ -338,7 +339,7 @@ impl Reader {
             let what = format!("node {id} ends with a comma before its three coordinates");
             return Err(bare(Fault::Syntax { what }));
         }
-        let mut point = [0.0; 3];
+        let mut point = Vector3::zeros();
         for x in &mut point {
             match words.next().unwrap_or_default() {
                 "" => {}
@@ -674,8 +675,8 @@ pub fn write_abaqus(mesh: &Foreign) -> String {
     let row =
         |numbers: &[u64]| numbers.iter().map(u64::to_string).collect::<Vec<_>>().join(", ") + "\n";
     let mut text = String::from("*HEADING\n*NODE\n");
-    for (n, [x, y, z]) in points.iter().enumerate() {
-        text += &format!("{}, {x:?}, {y:?}, {z:?}\n", node(n));
+    for (n, p) in points.iter().enumerate() {
+        text += &format!("{}, {:?}, {:?}, {:?}\n", node(n), p.x, p.y, p.z);
     }
     text += "*ELEMENT, TYPE=C3D8R\n";
     let mut last = 0;

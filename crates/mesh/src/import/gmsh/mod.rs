@@ -14,6 +14,7 @@ pub use write::{GMSH_MARK, write_gmsh};
 use super::error::{Fault, ImportError, Place};
 use super::foreign::Foreign;
 use super::text::decoded;
+use nalgebra::Vector3;
 use std::collections::{BTreeMap, HashMap};
 use values::{Values, is_binary};
 
@@ -203,7 +204,7 @@ impl Reader<'_> {
         }
     }
 
-    fn node(&mut self, id: u64, place: Place, point: [f64; 3]) -> Result<(), ImportError> {
+    fn node(&mut self, id: u64, place: Place, point: Vector3<f64>) -> Result<(), ImportError> {
         if self.indices.insert(id, self.foreign.points.len() as u32).is_some() {
             return Err(Fault::Repeated { what: "node", id }.at(place));
         }
@@ -223,8 +224,8 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn point(&mut self) -> Result<[f64; 3], ImportError> {
-        let mut point = [0.0; 3];
+    fn point(&mut self) -> Result<Vector3<f64>, ImportError> {
+        let mut point = Vector3::zeros();
         for x in &mut point {
             *x = self.values.real("a coordinate")?;
         }

@@ -37,8 +37,8 @@ pub fn write_gmsh(mesh: &Foreign) -> String {
     }
     text += &format!("$PhysicalNames\n{}\n{}$EndPhysicalNames\n", names.len(), names.concat());
     text += &format!("$Nodes\n{}\n", mesh.points.len());
-    for (n, [x, y, z]) in (1..).zip(&mesh.points) {
-        text += &format!("{n} {x:?} {y:?} {z:?}\n");
+    for (n, p) in (1..).zip(&mesh.points) {
+        text += &format!("{n} {:?} {:?} {:?}\n", p.x, p.y, p.z);
     }
     text + &format!("$EndNodes\n$Elements\n{}\n{}$EndElements\n", elements.len(), elements.concat())
 }

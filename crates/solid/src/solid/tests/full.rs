@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::full_stiffness::full_stiffness;
-use crate::stress::{cauchy, green, trace};
+use crate::stress::{cauchy, green};
 use nalgebra::{DMatrix, DVector, SMatrix, SymmetricEigen};
 
 const BOTH: [Volumetric; 2] = [Volumetric::Full, Volumetric::Mean];
@@ -20,7 +20,7 @@ fn some(mesh: &Mesh) -> Vec<bool> {
 #[test]
 fn patch_test_an_affine_displacement_leaves_interior_nodes_in_equilibrium() {
     let mesh = seven_hex_patch();
-    let h = [[1e-3, 0.5e-3, 0.5e-3], [0.5e-3, 1e-3, 0.5e-3], [0.5e-3, 0.5e-3, 1e-3]];
+    let h = Matrix3::new(1e-3, 0.5e-3, 0.5e-3, 0.5e-3, 1e-3, 0.5e-3, 0.5e-3, 0.5e-3, 1e-3);
     let u = affine(&mesh, h);
     let expected = cauchy(&h, &STEEL);
     let full = some(&mesh);
@@ -70,15 +70,8 @@ fn a_rotation_on_top_of_a_deformation_turns_the_force() {
     let mesh = shaken([2, 2, 2]);
     let r = deformation(&rotation(2.0));
     let u = field(&mesh, 0.02);
-    let turned: Vec<_> = mesh
-        .nodes
-        .iter()
-        .zip(&u)
-        .map(|(x, u)| {
-            let now = [0, 1, 2].map(|i| x[i] + u.0[i]);
-            Padded::new([0, 1, 2].map(|i| crate::geometry::dot(r[i], now) - x[i]))
-        })
-        .collect();
+    let turned: Vec<_> =
+        mesh.nodes.iter().zip(&u).map(|(x, u)| Padded::from(r * (x + u.vector()) - x)).collect();
     for volumetric in BOTH {
         let mut solid = full_solid(&mesh, volumetric, Level::detect());
         let (mut f, mut g) = (vec![Padded::ZERO; u.len()], vec![Padded::ZERO; u.len()]);
@@ -86,10 +79,8 @@ fn a_rotation_on_top_of_a_deformation_turns_the_force() {
         let moved = solid.subtract_internal_force(&turned, &[], &mut g, true).internal;
         assert!((moved / still - 1.0).abs() < 1e-12, "{still:e} {moved:e}");
         for (f, g) in f.iter().zip(&g) {
-            for i in 0..3 {
-                let expected = crate::geometry::dot(r[i], f.xyz());
-                assert!((g.0[i] - expected).abs() < 1e-12 * STEEL.young);
-            }
+            let error = g.vector() - r * f.vector();
+            assert!(error.abs().max() < 1e-12 * STEEL.young);
         }
     }
 }
@@ -128,26 +119,23 @@ fn force_is_the_derivative_of_the_energy() {
 }
 
 /// The element written out from its definition at the Gauss points: the oracle of the kernel.
-fn textbook_force(x: &[[f64; 3]; 8], u: &[[f64; 3]; 8], volumetric: Volumetric) -> [[f64; 3]; 8] {
+fn textbook_force(
+    x: &[Vector3<f64>; 8],
+    u: &[Vector3<f64>; 8],
+    volumetric: Volumetric,
+) -> [Vector3<f64>; 8] {
     let points = gauss_points(x);
-    let dilatation = points.map(|p| trace(&green(&p.displacement_gradient(u))));
+    let dilatation = points.map(|p| green(&p.displacement_gradient(u)).trace());
     let volume: f64 = points.iter().map(|p| p.volume).sum();
     let mean = points.iter().zip(dilatation).map(|(p, d)| p.volume * d).sum::<f64>() / volume;
-    let mut out = [[0.0; 3]; 8];
+    let mut out = [Vector3::zeros(); 8];
     for (point, own) in points.iter().zip(dilatation) {
         let h = point.displacement_gradient(u);
-        let (e, f) = (green(&h), deformation(&h));
         let theta = if volumetric == Volumetric::Mean { mean } else { own };
-        let mut s = e.map(|row| row.map(|c| 2.0 * STEEL.shear() * c));
-        (0..3).for_each(|i| s[i][i] += STEEL.lame() * theta);
+        let isotropic = Matrix3::from_diagonal_element(STEEL.lame() * theta);
+        let first_piola = deformation(&h) * (2.0 * STEEL.shear() * green(&h) + isotropic);
         for (out, b) in out.iter_mut().zip(&point.gradient) {
-            for i in 0..3 {
-                for j in 0..3 {
-                    for k in 0..3 {
-                        out[i] += point.volume * f[i][j] * s[j][k] * b[k];
-                    }
-                }
-            }
+            *out += point.volume * first_piola * b;
         }
     }
     out
@@ -161,8 +149,8 @@ fn every_level_agrees_with_the_textbook_element() {
     for volumetric in BOTH {
         let mut expected = vec![[0.0; 3]; mesh.nodes.len()];
         for hex in &mesh.hexes {
-            let x = hex.map(|n| mesh.nodes[n as usize]);
-            let f = textbook_force(&x, &hex.map(|n| u[n as usize].xyz()), volumetric);
+            let x = hex.map(|n| mesh.at(n));
+            let f = textbook_force(&x, &hex.map(|n| u[n as usize].vector()), volumetric);
             for (n, f) in hex.iter().zip(f) {
                 (0..3).for_each(|i| expected[*n as usize][i] -= f[i]);
             }
@@ -238,7 +226,7 @@ fn a_mixed_mesh_adds_up_both_formulations() {
     assert_eq!(fully.1.hourglass, 0.0);
 }
 
-fn distorted() -> [[f64; 3]; 8] {
+fn distorted() -> [Vector3<f64>; 8] {
     crate::geometry::tests::distorted()
 }
 
@@ -270,7 +258,7 @@ fn single() -> Mesh {
     let mut mesh = mesh::block([1, 1, 1], [1.0, 1.0, 1.0]);
     let hex = mesh.hexes[0];
     for (n, x) in hex.into_iter().zip(distorted()) {
-        mesh.nodes[n as usize] = x.map(|c| 1e-3 * c);
+        mesh.nodes[n as usize] = 1e-3 * x;
     }
     mesh
 }
@@ -281,7 +269,7 @@ fn the_stiffness_is_the_linearised_force() {
     let hex = mesh.hexes[0];
     let x = field(&mesh, 1e-13);
     for volumetric in BOTH {
-        let corners = hex.map(|n| mesh.nodes[n as usize]);
+        let corners = hex.map(|n| mesh.at(n));
         let k = matrix(full_stiffness(&corners, &STEEL, volumetric));
         let expected = k * SMatrix::<f64, 24, 1>::from_fn(|i, _| x[hex[i / 3] as usize].0[i % 3]);
         let mut y = vec![Padded::ZERO; 8];
@@ -296,7 +284,7 @@ fn the_stiffness_is_the_linearised_force() {
 #[test]
 fn hourglass_displacements_are_resisted_without_hourglass_stiffness() {
     let mesh = mesh::block([1, 1, 1], [1.0, 1.0, 1.0]);
-    let energy = |elements: Elements, mode: fn([f64; 3]) -> f64| {
+    let energy = |elements: Elements, mode: fn(Vector3<f64>) -> f64| {
         let u: Vec<_> = mesh
             .nodes
             .iter()
@@ -306,7 +294,7 @@ fn hourglass_displacements_are_resisted_without_hourglass_stiffness() {
             Solid::new(&mesh, &[STEEL], elements, Viscosity::default(), Level::detect()).unwrap();
         solid.subtract_internal_force(&u, &[], &mut vec![Padded::ZERO; 8], true).internal
     };
-    let modes: [fn([f64; 3]) -> f64; 3] =
+    let modes: [fn(Vector3<f64>) -> f64; 3] =
         [|x| x[0] * x[1], |x| x[1] * x[2], |x| x[0] * x[1] * x[2]];
     for mode in modes {
         assert_eq!(energy(Element { hourglass: 0.0 }.into(), mode), 0.0);
@@ -326,8 +314,7 @@ fn the_mean_stress_balances_the_nodal_forces_of_a_deformed_element() {
         solid.subtract_internal_force(&u, &[], &mut f, false);
         let mut stress = [[0.0; 6]];
         solid.cauchy_stress(&u, &mut stress);
-        let now: Vec<_> =
-            mesh.nodes.iter().zip(&u).map(|(x, u)| [0, 1, 2].map(|i| x[i] + u.0[i])).collect();
+        let now: Vec<_> = mesh.nodes.iter().zip(&u).map(|(x, u)| x + u.vector()).collect();
         let (volume, _) = mean_gradient(&mesh.hexes[0].map(|n| now[n as usize]));
         for (k, (i, j)) in [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)].into_iter().enumerate()
         {
@@ -362,7 +349,7 @@ fn kelvin_voigt_dissipates_eta_v_k_v_and_bulk_viscosity_is_that_of_the_one_point
         }
         let viscosity =
             Viscosity { bulk_linear: 0.06, bulk_quadratic: 1.2, ..Viscosity::default() };
-        let squeeze = affine(&mesh, [[-3.0, 0.2, 0.1], [0.0, -1.0, 0.5], [0.3, 0.0, 0.4]]);
+        let squeeze = affine(&mesh, Matrix3::new(-3.0, 0.2, 0.1, 0.0, -1.0, 0.5, 0.3, 0.0, 0.4));
         let power = |elements: Elements| {
             let mut solid =
                 Solid::new(&mesh, &[STEEL], elements, viscosity, Level::detect()).unwrap();
@@ -386,10 +373,7 @@ fn viscous_stresses_vanish_in_rigid_rotation() {
         .nodes
         .iter()
         .zip(&u)
-        .map(|(p, u)| {
-            let now = [0, 1, 2].map(|i| p[i] + u.0[i]);
-            Padded::new(crate::geometry::cross([10.0, -20.0, 30.0], now))
-        })
+        .map(|(p, u)| Padded::from(Vector3::new(10.0, -20.0, 30.0).cross(&(p + u.vector()))))
         .collect();
     for volumetric in BOTH {
         let mut solid =
@@ -449,7 +433,7 @@ fn deflection(poisson: f64, volumetric: Volumetric) -> f64 {
     let dofs = 3 * mesh.nodes.len();
     let mut k = DMatrix::<f64>::zeros(dofs, dofs);
     for hex in &mesh.hexes {
-        let element = full_stiffness(&hex.map(|n| mesh.nodes[n as usize]), &material, volumetric);
+        let element = full_stiffness(&hex.map(|n| mesh.at(n)), &material, volumetric);
         for i in 0..24 {
             for j in 0..24 {
                 let at = |i: usize| 3 * hex[i / 3] as usize + i % 3;
@@ -521,8 +505,7 @@ fn the_largest_frequency_of_a_mixed_mesh_is_that_of_its_assembled_matrices() {
     let dofs = 3 * mesh.nodes.len();
     let mut k = DMatrix::<f64>::zeros(dofs, dofs);
     for hex in &mesh.hexes {
-        let element =
-            full_stiffness(&hex.map(|n| mesh.nodes[n as usize]), &STEEL, Volumetric::Mean);
+        let element = full_stiffness(&hex.map(|n| mesh.at(n)), &STEEL, Volumetric::Mean);
         for i in 0..24 {
             for j in 0..24 {
                 let at = |i: usize| 3 * hex[i / 3] as usize + i % 3;
@@ -540,7 +523,7 @@ fn the_largest_frequency_of_a_mixed_mesh_is_that_of_its_assembled_matrices() {
 #[test]
 fn an_element_folded_at_a_gauss_point_is_refused_if_fully_integrated_and_found_if_it_folds_later() {
     let mesh = mesh::block([1, 1, 1], [1.0, 1.0, 1.0]);
-    let corner = mesh.nodes.iter().position(|x| *x == [1.0; 3]).unwrap();
+    let corner = mesh.nodes.iter().position(|x| *x == Vector3::repeat(1.0)).unwrap();
     // The corner pushed through the opposite faces: the volume stays positive.
     let push = Padded::new([-1.1; 3]);
     let mut u = vec![Padded::ZERO; 8];

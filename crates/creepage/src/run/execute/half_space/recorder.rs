@@ -11,6 +11,7 @@ use crate::scenario::{BAR, DISK, HalfSpaceModel, SurfacePoints};
 use contact::{ContactSums, NodalContact};
 use dynamics::{DriveReaction, Energies, StepReport};
 use halfspace::{PatchPoint, StepSums};
+use nalgebra::Vector3;
 use output::{Checkpoint, OutputError, Results};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -25,8 +26,8 @@ pub(super) struct HalfSpaceRecorder {
     /// Columns by which the recorded points have moved on with the contact.
     travel: i64,
     /// Displacement (m) and velocity (m/s) of the points of disk and bar.
-    displacement: Vec<[f64; 3]>,
-    velocity: Vec<[f64; 3]>,
+    displacement: Vec<Vector3<f64>>,
+    velocity: Vec<Vector3<f64>>,
     state: HalfSpaceRecorderState,
 }
 
@@ -79,8 +80,8 @@ impl HalfSpaceRecorder {
             spacing,
             width: model.width,
             travel: 0,
-            displacement: vec![[0.0; 3]; 2 * n],
-            velocity: vec![[0.0; 3]; 2 * n],
+            displacement: vec![Vector3::zeros(); 2 * n],
+            velocity: vec![Vector3::zeros(); 2 * n],
             state: HalfSpaceRecorderState::default(),
             points,
         })
@@ -197,16 +198,16 @@ impl HalfSpaceRecorder {
             self.travel = (centre + columns / 2).div_euclid(columns) * columns;
         }
         // in linear theory points that are opposite stay so: none is displaced but by the moves of the grid
-        let travel = [self.travel as f64 * self.spacing, 0.0, 0.0];
+        let travel = Vector3::new(self.travel as f64 * self.spacing, 0.0, 0.0);
         self.displacement.fill(travel);
-        self.velocity.fill([0.0; 3]);
+        self.velocity.fill(Vector3::zeros());
         let law = model.rolling.mu_static();
         for table in &mut self.contact.tables {
             for values in [&mut table.pressure, &mut table.pass_pressure] {
                 values.fill(0.0);
             }
             for values in [&mut table.shear, &mut table.slip_velocity, &mut table.slip] {
-                values.fill([0.0; 3].into());
+                values.fill(Vector3::zeros());
             }
             table.mu.fill(law);
             table.state.fill(0);
@@ -265,7 +266,7 @@ impl Rows {
     }
 
     /// Undeformed places (m) of the points.
-    fn places(&self, points: &SurfacePoints, h: f64, width: f64) -> Vec<[f64; 3]> {
+    fn places(&self, points: &SurfacePoints, h: f64, width: f64) -> Vec<Vector3<f64>> {
         let (first, lines) = (points.columns.0, points.lines.unwrap_or(0) as f64);
         let y = |line: usize| match self.edges {
             true => (line as f64 - 0.5) * width,
@@ -273,7 +274,9 @@ impl Rows {
         };
         let x = |column: usize| (first + column as i64) as f64 * h;
         (0..self.lines)
-            .flat_map(|line| (0..self.columns).map(move |column| [x(column), y(line), 0.0]))
+            .flat_map(|line| {
+                (0..self.columns).map(move |column| Vector3::new(x(column), y(line), 0.0))
+            })
             .collect()
     }
 
