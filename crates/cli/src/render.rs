@@ -1,8 +1,6 @@
 //! `creepage render`: pictures and films are drawn by PyVista, through the Python package.
 
-use std::process::{Command, Stdio};
-
-use creepage::{Error, RenderOptions};
+use creepage::{Error, RenderOptions, python};
 
 use crate::args::Args;
 
@@ -11,13 +9,7 @@ use crate::args::Args;
 /// # Errors
 /// Where no Python has the package, with the command that installs it.
 pub fn command(args: &Args, options: &RenderOptions) -> Result<u8, Error> {
-    let has_package = |python: &&str| {
-        let mut ask = Command::new(python);
-        ask.args(["-c", "import creepage"]).stdin(Stdio::null());
-        ask.stdout(Stdio::null()).stderr(Stdio::null());
-        ask.status().is_ok_and(|status| status.success())
-    };
-    let python = ["python3", "python"].into_iter().find(has_package).ok_or_else(|| Error::Option {
+    let mut command = python::with_package().ok_or_else(|| Error::Option {
         problem: "pictures and films are drawn by PyVista, through the Python package creepage, which no Python on the \
                   path has"
             .to_owned(),
@@ -27,11 +19,9 @@ pub fn command(args: &Args, options: &RenderOptions) -> Result<u8, Error> {
                 .to_owned(),
         ),
     })?;
-    let mut command = Command::new(python);
     command.args(["-m", "creepage", "render"]).args(args.shared()).args(options.words());
     let status = command.status();
-    let status =
-        status.map_err(|error| Error::System(format!("{python} cannot be run: {error}")))?;
+    let status = status.map_err(|error| Error::System(format!("Python cannot be run: {error}")))?;
     // Ctrl-C in a terminal ends both programs, the other perhaps without a code
     Ok(status.code().map_or(creepage::INTERRUPTED, |code| code as u8))
 }

@@ -105,6 +105,7 @@ pub mod figures;
 pub mod ls_dyna;
 #[cfg(test)]
 mod modules;
+pub mod python;
 pub mod report;
 pub mod rule;
 pub mod run;

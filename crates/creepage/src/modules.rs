@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Each uses only those before it; those of the last row but one also those beside them.
-const ORDER: [&[&str]; 10] = [
+const ORDER: [&[&str]; 11] = [
+    &["python"],
     &["rule"],
     &["case"],
     &["scenario"],

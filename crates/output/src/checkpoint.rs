@@ -106,10 +106,10 @@ impl Checkpoint {
         file.plain(&dataset_spec(&[], &STATE), &self.state)?;
         file.close_by(|partial| {
             match fs::rename(&newest, &before) {
-                Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(cause),
+                Err(cause) if cause.kind() != io::ErrorKind::NotFound => return Err(cause.into()),
                 _ => fs::rename(partial, &newest)?,
             }
-            sync_folder(folder)
+            Ok(sync_folder(folder)?)
         })
     }
 

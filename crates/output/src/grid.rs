@@ -3,7 +3,7 @@
 use crate::OutputError;
 use crate::checksums::{Checksums, Kept};
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, Kind, cut_to_go_on, fix_headers, undo};
+use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, cut_to_go_on, undo};
 use crate::layout::{CONSTANT, MESH, STEP_COUNT, STEPS, STEPS_GROUP, data_path, step_path};
 use crate::provenance::Provenance;
 use std::path::{Path, PathBuf};
@@ -155,9 +155,7 @@ impl TransientGrid {
         writer.lay_out_mesh(&mut file, grid)?;
         writer.lay_out_fields(&mut file, grid)?;
         writer.lay_out_steps(&mut file)?;
-        file.close_with_headers_fixed(|path| {
-            fix_headers(path, &writer.growing(), &STEPS_GROUP, STEP_COUNT, 0)
-        })?;
+        file.close(&writer.growing())?;
         writer.sums = Checksums::of_new(&writer.path, writer.names())?;
         Ok(writer)
     }
@@ -183,22 +181,20 @@ impl TransientGrid {
 
     /// The extendible datasets, to which a snapshot appends.
     fn growing(&self) -> Vec<Growing> {
-        let one = |name: String, kind| Growing { name, kind, components: 1, rows: 1 };
+        let one = |name: String| Growing { name, rows: 1 };
         let mut all = Vec::new();
         for spec in &self.fields {
             all.push(Growing {
                 name: data_path(&spec.name, spec.on_cells),
-                kind: if spec.integer { Kind::Byte } else { Kind::Real },
-                components: spec.components,
                 rows: self.count(spec.on_cells),
             });
-            all.push(one(offset_path(&spec.name, spec.on_cells), Kind::Int64));
+            all.push(one(offset_path(&spec.name, spec.on_cells)));
         }
         for (name, on_cells) in &self.constant_names {
-            all.push(one(offset_path(name, *on_cells), Kind::Int64));
+            all.push(one(offset_path(name, *on_cells)));
         }
-        all.push(one(step_path(&STEPS.times), Kind::Real));
-        all.extend(counts_of_step().map(|(name, _)| one(name, Kind::Int64)));
+        all.push(one(step_path(&STEPS.times)));
+        all.extend(counts_of_step().map(|(name, _)| one(name)));
         all
     }
 
@@ -380,7 +376,7 @@ impl TransientGrid {
 
     fn lay_out_mesh(&self, file: &mut Creator, grid: &GridSpec<'_>) -> Result<(), OutputError> {
         file.group(&["VTKHDF"])?;
-        file.vtkhdf_header("UnstructuredGrid")?;
+        file.vtkhdf_header(b"UnstructuredGrid")?;
         let corners = grid.cells.corners();
         let connectivity: Vec<i64> =
             grid.cells.connectivity().iter().map(|&index| i64::from(index)).collect();

@@ -3,19 +3,14 @@
 use crate::OutputError;
 use crate::checksums::{Checksums, Kept};
 use crate::field::FieldSpec;
-use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, Kind, cut_to_go_on, fix_headers, undo};
+use crate::hdf5::{Appender, Creator, DatasetSpec, Growing, cut_to_go_on, undo};
 use crate::layout::ROW_COUNT;
 use crate::provenance::Provenance;
 use std::path::{Path, PathBuf};
 
 /// The extendible datasets of the columns.
 fn growing(columns: &[FieldSpec]) -> Vec<Growing> {
-    let dataset = |column: &FieldSpec| Growing {
-        name: column.name.to_string(),
-        kind: Kind::Real,
-        components: 1,
-        rows: 1,
-    };
+    let dataset = |column: &FieldSpec| Growing { name: column.name.to_string(), rows: 1 };
     columns.iter().map(dataset).collect()
 }
 
@@ -65,9 +60,7 @@ impl History {
             })?;
         }
         file.count(&[], ROW_COUNT, 0)?;
-        file.close_with_headers_fixed(|path| {
-            fix_headers(path, &growing(columns), &[], ROW_COUNT, 0)
-        })?;
+        file.close(&growing(columns))?;
         let sums = Checksums::of_new(&path, names(columns))?;
         Ok(Self { path, columns: columns.to_vec(), rows: 0, sums, scratch: Vec::new() })
     }

@@ -11,9 +11,10 @@
 //! appends and closes. Between snapshots the file is complete, so any reader can open it while the
 //! run goes on, and a killed process loses at most the snapshot that it was writing: headers are
 //! rewritten in place, each within a page of memory, and a file gets its name only once its closings
-//! no longer move them. The counts `NSteps` (grids) and `rows` (history) are written after the data
+//! no longer move its links. The counts `NSteps` (grids) and `rows` (history) are written after the data
 //! that they count: what they count is valid. A snapshot writes the new end of the file into the
-//! superblock before anything refers to addresses behind the old one (module `file_end`).
+//! superblock before anything refers to addresses behind the old one (module `hdf5::rust_hdf5`). With the
+//! feature `libhdf5`, HDF5's own library writes, and decides itself in which order it writes within a closing.
 //!
 //! An opening can still fail where it reads a header while that is rewritten, or where it stalls
 //! between its first reads: about one in a thousand fails ("incorrect metadata checksum",
@@ -34,7 +35,6 @@ pub mod confidence;
 mod disk_space;
 mod error;
 mod field;
-mod file_end;
 pub mod files;
 mod grid;
 mod hdf5;
@@ -42,7 +42,6 @@ mod history;
 mod integrity;
 mod json;
 pub mod layout;
-mod panics;
 mod provenance;
 mod reader;
 mod recognise;

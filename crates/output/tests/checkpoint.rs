@@ -276,6 +276,7 @@ fn no_damage_of_a_history_that_is_to_be_continued_passes_unnoticed() {
 
 /// By the checksums that readers verify anyway: those of headers and indexes, and Adler-32 of compressed data.
 #[test]
+#[cfg_attr(feature = "libhdf5", ignore = "its indices of chunks carry no checksum")]
 fn no_reader_is_handed_a_changed_mesh_or_snapshot() {
     with_grid(|grid, fields| {
         let folder = tempfile::tempdir().unwrap();

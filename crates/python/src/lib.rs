@@ -18,6 +18,10 @@ use pyo3::prelude::*;
 /// The native part of Creepage.
 #[pymodule]
 mod _creepage {
+    use std::path::PathBuf;
+
+    use pyo3::prelude::*;
+
     #[pymodule_export]
     use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, view};
     #[pymodule_export]
@@ -28,6 +32,17 @@ mod _creepage {
     use crate::sweep::sweep_table;
     #[pymodule_export]
     use crate::text::{from_toml, toml};
+
+    /// What the library does through Python is done in the interpreter that has imported this package.
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        let interpreter: Option<PathBuf> =
+            module.py().import("sys")?.getattr("executable")?.extract()?;
+        if let Some(interpreter) = interpreter.filter(|path| path.is_file()) {
+            creepage::python::runs_in(interpreter);
+        }
+        Ok(())
+    }
 
     /// Version of the program.
     #[pymodule_export]

@@ -147,3 +147,88 @@ def test_a_mesh_through_meshio_is_to_the_bit_that_of_a_file_read_natively(tmp_pa
     for name, keys in (("file", {"file": str(SMALL)}), ("meshio", through)):
         creepage.mesh(OF_SMALL, tmp_path / f"{name}.vtu", mesh=keys)
     assert (tmp_path / "file.vtu").read_bytes() == (tmp_path / "meshio.vtu").read_bytes()
+
+
+def small_sets():
+    """The small mesh, and its sets as masks of the cells of each block."""
+    mesh = meshio.read(SMALL.with_suffix(".vtu"))
+    return mesh, {name: [part == 1 for part in parts] for name, parts in mesh.cell_data.items()}
+
+
+def with_families(path):
+    """Sets as groups of the families of a MED file: the cells of a family are in the same sets."""
+    mesh, sets = small_sets()
+    codes = [sum((1 << k) * part for k, part in enumerate(parts)) for parts in zip(*sets.values())]
+    groups = {-int(code): [n for k, n in enumerate(sets) if code >> k & 1] for code in np.unique(np.hstack(codes))}
+    made = meshio.Mesh(mesh.points, mesh.cells, cell_data={"cell_tags": [-part for part in codes]})
+    made.cell_tags = groups
+    made.write(path)
+
+
+def with_arrays(path):
+    """Sets as arrays of zeros and ones."""
+    mesh, _ = small_sets()
+    mesh.write(path)
+
+
+def with_blocks(path):
+    """Sets of nodes, and bodies as element blocks of an Exodus file."""
+    mesh, sets = small_sets()
+    quads, bricks = (block.data for block in mesh.cells)
+    bodies = [("hexahedron", bricks[sets[name][1]]) for name in ("disk", "bar")]
+    nodes = {name: np.unique(quads[sets[name][0]]) for name in ("hub", "tread", "top", "clamp")}
+    meshio.Mesh(mesh.points, bodies, point_sets=nodes).write(path)
+    # meshio numbers the blocks and names none
+    with pytest.importorskip("netCDF4").Dataset(path, "a") as file:
+        file.createVariable("eb_names", "S1", ("num_el_blk", "len_string"))[0, :4] = list("disk")
+    return {"bar": "1"}
+
+
+@pytest.mark.parametrize(
+    "name, write", [("m.med", with_families), ("m.XDMF", with_arrays), ("m.exo", with_blocks)]
+)
+def test_a_case_reads_a_file_of_meshio_to_the_bit_as_one_that_it_reads_itself(tmp_path, name, write):
+    sets = write(tmp_path / name) or {}
+    creepage.mesh(OF_SMALL, tmp_path / "own.vtu", mesh={"file": str(SMALL)})
+    creepage.mesh(OF_SMALL, tmp_path / "meshio.vtu", mesh={"file": str(tmp_path / name), "sets": sets})
+    assert (tmp_path / "own.vtu").read_bytes() == (tmp_path / "meshio.vtu").read_bytes()
+
+
+def test_sets_that_have_numbers_alone_go_by_them(tmp_path):
+    mesh, sets = small_sets()
+    numbers = [sum((k + 1) * part for k, part in enumerate(parts)) for parts in zip(*sets.values())]
+    made = meshio.Mesh(mesh.points, mesh.cells, cell_data={"nastran:ref": numbers})
+    meshio.nastran.write(tmp_path / "m.bdf", made, point_format="fixed-large")
+    names = {name: str(k + 1) for k, name in enumerate(sets)}
+    found = creepage.mesh(OF_SMALL, mesh={"file": str(tmp_path / "m.bdf"), "sets": names})
+    assert found["bodies"] == creepage.mesh(OF_SMALL, mesh={"file": str(SMALL)})["bodies"]
+
+
+def test_files_of_meshio_are_refused_by_their_names_with_what_to_do(tmp_path, monkeypatch):
+    def refused(name, said, help, sets={}):
+        with pytest.raises(creepage.CaseError) as error:
+            creepage.mesh(OF_SMALL, mesh={"file": str(tmp_path / name), "sets": sets})
+        assert name in error.value.message and said in error.value.message, error.value.message
+        assert help in error.value.help
+
+    with_families(tmp_path / "m.med")
+    refused("m.med", "no set `axle`", "mesh.sets.hub", {"hub": "axle"})
+    (tmp_path / "cut.med").write_bytes((tmp_path / "m.med").read_bytes()[:5000])
+    refused("cut.med", "meshio cannot read it: Unable", "write the file anew")
+    (tmp_path / "no.avs").write_text("no mesh")
+    refused("no.avs", "meshio cannot read it", "write the file anew")
+    meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])]).write(tmp_path / "tets.vtk")
+    refused("tets.vtk", "element 0 is a tetrahedron", "linear hexahedra")
+    # a package that cannot be imported is one that is missing
+    (tmp_path / "h5py.py").write_text("raise ImportError(name='h5py')")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    refused("m.med", "h5py is needed", "pip install 'creepage[mesh]'")
+    (tmp_path / "meshio.py").write_text("raise ImportError(name='meshio')")
+    refused("m.med", "meshio is needed", "pip install 'creepage[mesh]'")
+
+
+def test_every_ending_that_is_read_through_meshio_is_one_of_meshio(tmp_path):
+    with pytest.raises(creepage.CaseError, match="for meshio, in one of") as error:
+        creepage.mesh(OF_SMALL, mesh={"file": str(tmp_path / "m.foo")})
+    endings = error.value.message.split("in one of ")[1].split(", ")
+    assert set(endings) <= set(meshio.extension_to_filetypes) and ".med" in endings

@@ -116,7 +116,50 @@ fn a_bad_mesh_ends_with_code_2_file_line_element_or_set_and_remedy() {
     refused("m.msh", &binary[..3000], "", &["m.msh, byte 3000", "the file ends where"]);
     let no_sets = fs::read(meshes().join("formats/no-sets.msh")).unwrap();
     refused("m.msh", &no_sets, "", &["the file has no sets", "meshio keeps cell_sets"]);
-    refused("m.stl", b"solid", "", &["case.toml", "mesh.file", ".msh, .inp"]);
+    refused("m.stl", b"solid", "", &["case.toml", "mesh.file", ".msh, .inp", "meshio", ".med"]);
+}
+
+#[test]
+fn a_mesh_of_meshio_without_the_python_package_says_how_to_get_it() {
+    let (_dir, path) = folder("m.MED", b"", "");
+    let mut bare = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    let output = bare.args(["mesh", &path]).env("PATH", "").output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    for word in ["m.MED", "meshio", "pip install 'creepage[mesh]'"] {
+        assert!(said.contains(word), "{word:?} is not in:\n{said}");
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn what_the_python_package_says_of_a_mesh_is_shown_and_what_it_writes_is_read() {
+    use std::os::unix::fs::PermissionsExt;
+    let (dir, path) = folder("m.med", b"", "");
+    let python = dir.path().join("python3");
+    let said_by = |script: &str| {
+        // it has the package
+        fs::write(&python, format!("#!/bin/sh\n[ \"$1\" = -c ] && exit 0\n{script}")).unwrap();
+        fs::set_permissions(&python, fs::Permissions::from_mode(0o755)).unwrap();
+        let path_of_programs = format!("{}:/bin:/usr/bin", dir.path().display());
+        let mut program = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        program.args(["mesh", &path, "--json"]).env("PATH", path_of_programs).output().unwrap()
+    };
+    for (script, code, words) in [
+        ("echo cut short >&2; echo >&2; exit 2", 2, ["m.med: cut short", "write the file anew"]),
+        ("echo No module named it >&2; exit 1", 2, ["says: No module named it", "pip install"]),
+        ("kill -9 $$", 2, ["says: nothing (signal: 9", "pip install"]),
+        ("exit 130", 130, ["interrupted while", "no results yet"]),
+        ("echo no grid", 2, ["m.med: the file is no", "write the file anew"]),
+    ] {
+        let output = said_by(script);
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{said}");
+        words.iter().for_each(|word| assert!(said.contains(word), "{word:?} is not in:\n{said}"));
+    }
+    let output = said_by(&format!("cat '{}'", meshes().join("small.vtu").display()));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&found["elements"], &found["nodes"]), (&2830.into(), &3707.into()));
 }
 
 /// A mesh of Gmsh 2.2 whose coordinates are multiplied by a factor.

@@ -136,12 +136,13 @@ impl MaterialOverride {
 section! {
     /// The mesh: a fine zone where contact passes, graded to coarse elements elsewhere; or a file.
     optional Meshing {
-        /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp`, `.vtu`, or `.vtkhdf`. `[disk]`,
-        /// `[bar]` and `mesh.zone` then say what the mesh is, and must agree with it; `growth`, `coarsest`
-        /// and `zone.depth` are without meaning. Default: the mesh is generated.
+        /// Mesh of another program, relative to this file: Gmsh `.msh`, Abaqus `.inp`, `.vtu`, or `.vtkhdf`; `.med` and
+        /// others through meshio (`pip install 'creepage[mesh]'`). `[disk]`, `[bar]` and `mesh.zone` then say what the
+        /// mesh is, and must agree with it; `growth`, `coarsest` and `zone.depth` are without meaning. Default: the
+        /// mesh is generated.
         file: Option<String>
             => key(Text, "",
-                "give the path of a .msh, .inp, .vtu or .vtkhdf file in quotes, relative to the case file; with --set, \
+                "give the path of a mesh file (.msh, .inp, .vtu, .vtkhdf, .med, ...) in quotes, relative to the case file; with --set, \
          to the working directory").finite_elements_only();
         /// SHA-256 of the file, in hexadecimal. Written into the case of a run, so that no other mesh
         /// takes its place unseen. Default with `file`: that of the file.

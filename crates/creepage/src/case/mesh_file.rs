@@ -16,7 +16,13 @@ const KEY: &str = "mesh.file";
 const DIGEST: &str = "mesh.sha256";
 /// What to do about a name that ends in none of the endings of a mesh file.
 pub const ENDINGS: &str =
-    "give a Gmsh .msh, an Abaqus .inp, a .vtu or a .vtkhdf file; meshio converts others";
+    "give a Gmsh .msh, an Abaqus .inp, a .vtu or a .vtkhdf file, or one that meshio reads";
+
+/// The endings of further formats from which meshio reads hexahedra and what may tell the bodies apart.
+const THROUGH_MESHIO: [&str; 21] = [
+    "avs", "bdf", "dat", "e", "ex2", "exo", "f3grid", "fem", "hmf", "mdpa", "med", "mesh", "meshb",
+    "nas", "su2", "tec", "ugrid", "vol", "vtk", "xdmf", "xmf",
+];
 
 /// The format of a mesh file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,13 +31,19 @@ pub enum MeshFormat {
     Foreign(Format),
     /// The VTKHDF grid of `creepage mesh --out`.
     Own,
+    /// One that meshio reads.
+    ThroughMeshio,
 }
 
 impl MeshFormat {
     /// The format by the ending of a file's name; `None` for one that is not read.
     pub fn of(path: &Path) -> Option<Self> {
-        let own = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("vtkhdf"));
-        if own { Some(Self::Own) } else { Format::of(path).map(Self::Foreign) }
+        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
+        match ending.as_str() {
+            "vtkhdf" => Some(Self::Own),
+            ending if THROUGH_MESHIO.contains(&ending) => Some(Self::ThroughMeshio),
+            _ => Format::of(path).map(Self::Foreign),
+        }
     }
 }
 
@@ -47,7 +59,11 @@ pub fn resolve(layers: &mut Layers) -> Result<(), CaseError> {
         Err(layers.error(KEY, &format!("\"{shown}\": {problem}"), remedy).into())
     };
     if MeshFormat::of(&path).is_none() {
-        return refused("the name ends in none of .msh, .inp, .vtu and .vtkhdf", ENDINGS);
+        let problem = format!(
+            "the name ends in none of .msh, .inp, .vtu and .vtkhdf, nor, for meshio, in one of .{}",
+            THROUGH_MESHIO.join(", .")
+        );
+        return refused(&problem, ENDINGS);
     }
     let bytes = match read(&path) {
         Ok(bytes) => bytes,

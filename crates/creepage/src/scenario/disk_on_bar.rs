@@ -8,6 +8,7 @@ mod mesh_file;
 mod preload;
 mod start;
 mod store;
+mod through_meshio;
 mod window;
 
 pub use bodies::{elements, model};

@@ -16,6 +16,10 @@ pub enum ScenarioError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy))]
     MeshFile(#[from] MeshFileError),
+    /// Ctrl-C while meshio read the mesh file.
+    #[error("interrupted while meshio read the mesh")]
+    #[diagnostic(help("there are no results yet"))]
+    Interrupted,
     /// The mesh of a case in plane strain is more than a slice.
     #[error("mesh.plane_strain = true: {0}")]
     #[diagnostic(help(
@@ -135,11 +139,20 @@ impl ScenarioError {
         }
     }
 
+    /// Whether it was asked to stop.
+    pub fn is_interruption(&self) -> bool {
+        match self {
+            Self::Interrupted => true,
+            Self::Preload(error) => error.is_interruption(),
+            _ => false,
+        }
+    }
+
     /// Exit code of the process: 3 where no preload was found or a file cannot be written, 130 when
     /// interrupted, 2 for the rest, which is bad input.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Preload(error) if error.is_interruption() => 130,
+            _ if self.is_interruption() => 130,
             Self::Preload(_) | Self::Text(_) => 3,
             _ => 2,
         }

@@ -311,7 +311,7 @@ fn smallest_step(
         known.push(basis);
         let limit = crate::scenario::stable_limit(case, Some(&preloads(folder)), stop);
         let limit = limit.map_err(|error| match error {
-            ScenarioError::Preload(preload) if preload.is_interruption() => SweepError::Interrupted,
+            error if error.is_interruption() => SweepError::Interrupted,
             error if error.key().is_some() => sweep.refused(&error, case, &run.indices).into(),
             cause => SweepError::Limit { run: run.name.clone(), cause: Box::new(cause) },
         })?;

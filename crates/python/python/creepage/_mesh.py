@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import io
 import os
 import tempfile
 from pathlib import Path
@@ -11,11 +13,14 @@ import numpy as np
 from . import _case, _creepage
 from ._errors import CaseError
 from ._execute import execute
+from ._optional import optional
 
 # what the solver asks for, in [mesh.sets]
 NEEDED = ("disk", "bar", "hub", "tread", "top", "clamp")
 # kinds of cells that a mesh may have beside its bricks: they carry sets or nothing
 BESIDE = ("quad", "line", "vertex")
+# arrays of meshio over cells, of the numbers of their sets
+NUMBERS = ("avsucd:material", "medit:ref", "nastran:ref", "netgen:index", "su2:tag", "ugrid:ref")
 # stands near the beginning of every .vtu file that Creepage writes
 MARK = b"<!-- Creepage"
 
@@ -54,8 +59,7 @@ class Mesh:
         Returns:
             dict: the keys of [mesh]: ``creepage.run(case, mesh=creepage.mesh.from_meshio(...))``.
         """
-        import meshio
-
+        meshio = optional("meshio", "mesh")
         out = Path(out)
         if out.suffix != ".vtu":
             raise CaseError(f"out = {out}: the file's name must end in .vtu")
@@ -75,15 +79,7 @@ class Mesh:
             there = ", ".join(sorted({*nodes, *cells})) or "none"
             raise CaseError(f"the mesh has no set {', '.join(missing)}; it has: {there}. Name them by sets")
         kept = [k for k, block in enumerate(mesh.cells) if block.type in ("hexahedron", "quad")]
-        chosen = {name: [masks[k].astype(np.uint8) for k in kept] for name, masks in cells.items()}
-        points = np.zeros((len(mesh.points), 3))
-        points[:, : mesh.points.shape[1]] = mesh.points
-        made = meshio.Mesh(
-            points,
-            [(mesh.cells[k].type, mesh.cells[k].data) for k in kept],
-            point_data={name: mask.astype(np.uint8) for name, mask in nodes.items()},
-            cell_data=chosen,
-        )
+        made = with_arrays(meshio, mesh, kept, nodes, cells)
         with tempfile.TemporaryDirectory() as folder:
             copy = Path(folder, "mesh.vtu")
             made.write(copy)
@@ -105,15 +101,43 @@ def refuse_foreign(out):
 
 def read(meshio, path):
     """A file by meshio, whose many ways to fail are one here."""
+    printed = io.StringIO()
+    ending = Path(path).suffix.lower()
     try:
-        if Path(path).suffix.lower() == ".inp":
-            with tempfile.TemporaryDirectory() as folder:
-                copy = Path(folder, "mesh.inp")
-                copy.write_text(with_whole_sets(lines_of(Path(path))), "utf-8")
-                return meshio.read(copy)
-        return meshio.read(path)
-    except (Exception, SystemExit) as problem:  # meshio ends the interpreter on some files
-        raise CaseError(f"{path}: meshio cannot read it: {problem}") from problem
+        with contextlib.redirect_stdout(printed):
+            if ending == ".inp":
+                with tempfile.TemporaryDirectory() as folder:
+                    copy = Path(folder, "mesh.inp")
+                    copy.write_text(with_whole_sets(lines_of(Path(path))), "utf-8")
+                    return meshio.read(copy)
+            mesh = meshio.read(path)
+            if ending in (".e", ".ex2", ".exo"):
+                mesh.cell_sets |= blocks(path, mesh)
+            return mesh
+    except ImportError as missing:
+        if missing.name:
+            optional(missing.name, "mesh")
+        raise
+    except (Exception, SystemExit) as problem:  # meshio prints why it cannot read a file, and ends the interpreter
+        why = printed.getvalue() if isinstance(problem, SystemExit) else str(problem)
+        why = " ".join(why.split()) or type(problem).__name__
+        raise CaseError(f"{path}: meshio cannot read it: {why}") from problem
+
+
+def blocks(path, mesh):
+    """The element blocks of an Exodus file by their names, or else numbers, neither of which meshio keeps."""
+    netcdf = optional("netCDF4", "mesh")
+    with netcdf.Dataset(path) as file:
+        file.set_auto_mask(False)
+        variables = file.variables
+        names = [str(number) for number in variables["eb_prop1"][:]]
+        if "eb_names" in variables:
+            given = netcdf.chartostring(variables["eb_names"][:])
+            names = [str(name).strip() or number for name, number in zip(given, names)]
+    return {
+        name: [range(len(block.data)) if block is own else [] for block in mesh.cells]
+        for name, own in zip(names, mesh.cells)
+    }
 
 
 def lines_of(path):
@@ -202,13 +226,51 @@ def named(mesh):
             (np.asarray(group) == tag) & (block.dim == dimension)
             for group, block in zip(groups, mesh.cells)
         ]
+    for name in groups_of(mesh, "point_tags"):
+        families = mesh.point_data["point_tags"]
+        nodes[name] = members(mesh.point_tags, name, families)
+    for name in groups_of(mesh, "cell_tags"):
+        cells[name] = [members(mesh.cell_tags, name, families) for families in mesh.cell_data["cell_tags"]]
+    for parts in (mesh.cell_data[key] for key in NUMBERS if key in mesh.cell_data):
+        for number in np.unique(np.concatenate(parts)):
+            cells.setdefault(f"{number:.0f}", [np.asarray(part) == number for part in parts])
     # this package's own way, in any format that keeps data
-    for name in NEEDED:
-        if name in mesh.point_data and name not in nodes:
-            nodes[name] = np.asarray(mesh.point_data[name]) != 0
-        if name in mesh.cell_data and name not in cells:
-            cells[name] = [np.asarray(part) != 0 for part in mesh.cell_data[name]]
+    for name, values in mesh.point_data.items():
+        if is_set([values]):
+            nodes.setdefault(name, np.asarray(values) == 1)
+    for name, parts in mesh.cell_data.items():
+        if is_set(parts):
+            cells.setdefault(name, [np.asarray(part) == 1 for part in parts])
     return nodes, cells
+
+
+def groups_of(mesh, key):
+    """The names of the groups of nodes or cells of a MED file."""
+    return sorted({name for groups in getattr(mesh, key, {}).values() for name in groups})
+
+
+def members(groups_of_family, name, families):
+    """Which nodes or cells belong to a group, by their families."""
+    return np.isin(families, [family for family, groups in groups_of_family.items() if name in groups])
+
+
+def is_set(parts):
+    """Whether an array, in parts, is of zeros and ones, some of which are ones."""
+    parts = [np.asarray(part) for part in parts]
+    return all(part.ndim == 1 and np.isin(part, (0, 1)).all() for part in parts) and any(map(np.any, parts))
+
+
+def with_arrays(meshio, mesh, kept, nodes, cells):
+    """The blocks ``kept`` of a mesh, with its sets as arrays of zeros and ones, all in the order of bytes of this
+    machine."""
+    points = np.zeros((len(mesh.points), 3))
+    points[:, : mesh.points.shape[1]] = mesh.points
+    return meshio.Mesh(
+        points,
+        [(mesh.cells[k].type, np.asarray(mesh.cells[k].data, np.int64)) for k in kept],
+        point_data={name: mask.astype(np.uint8) for name, mask in nodes.items()},
+        cell_data={name: [masks[k].astype(np.uint8) for k in kept] for name, masks in cells.items()},
+    )
 
 
 def take(name, given, mesh, nodes, cells):

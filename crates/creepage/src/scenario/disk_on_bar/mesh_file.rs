@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use crate::case::mesh_file::{self, MeshFormat};
 use crate::case::schema::{Case, Ends, LengthUnit, Symmetry};
 use mesh::Mesh;
-use mesh::import::{Fault, Foreign, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
+use mesh::import::{Fault, Foreign, Format, ImportError, Set, SetNames, Shape, Unit, bodies, fit};
 use output::layout::{CONSTANT, MESH_SETS};
 use output::{GridFile, OutputError, hexadecimal};
 use sha2::{Digest, Sha256};
 
+use super::through_meshio::{self, MeshioError};
 use crate::scenario::error::{MeshFileError, ScenarioError};
 use crate::scenario::remedy::Remedy;
 
@@ -33,6 +34,14 @@ pub fn import(case: &Case) -> Result<Option<(Mesh, Vec<String>)>, ScenarioError>
     }
     let foreign = match format {
         MeshFormat::Foreign(format) => format.read(&bytes),
+        MeshFormat::ThroughMeshio => {
+            let vtu = through_meshio::as_vtu(&path).map_err(|error| match error {
+                MeshioError::Interrupted => ScenarioError::Interrupted,
+                error => refused(error.to_string(), error.remedy()),
+            })?;
+            // a place in it is none of the user's file
+            Format::Vtu.read(&vtu).map_err(|fault| ImportError { place: None, ..fault })
+        }
         MeshFormat::Own => Ok(own(&path, &names(case)).map_err(|error| {
             refused(error.to_string(), "write it again with creepage mesh CASE --out FILE.vtkhdf")
         })?),
