@@ -87,8 +87,9 @@ impl Listener for RunWatch<'_> {
 
 /// What a run will take, in a line.
 fn cost_line(cost: &Cost) -> String {
+    let about_or_less = if cost.seconds < 0.5 { "" } else { "about " };
     format!(
-        "{} elements, {} steps of {} ns: about {} on this machine, {} MB of results",
+        "{} elements, {} steps of {} ns: {about_or_less}{} on this machine, {} MB of results",
         count(Some(cost.elements as f64)),
         count(Some(cost.steps as f64)),
         digits(Some(1e9 * cost.dt), 4),

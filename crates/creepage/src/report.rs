@@ -33,6 +33,7 @@ td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .wide{overflow-x:auto}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
+.springs{color:#6b5600;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
 #values{position:fixed;z-index:1;pointer-events:none;background:#fffe;border:1px solid #999;padding:.3rem .6rem;
 font-size:.8rem;max-width:90vw}#values i{display:inline-block;width:1em;height:.6em;margin-right:.5em}
@@ -187,11 +188,7 @@ fn verdicts(out: &mut String, checked: &CheckResult) {
             }
             None => String::new(),
         };
-        let word = match metric.keeps_limit() {
-            None => "",
-            Some(true) => "pass",
-            Some(false) => "fail",
-        };
+        let word = metric.verdict().word().to_lowercase();
         let units = if metric.units == "1" { "" } else { &metric.units };
         let _ = writeln!(
             out,
@@ -221,7 +218,7 @@ fn case(out: &mut String, basis: &Basis, checked: &CheckResult) {
         Some(_) => row(
             "friction",
             format!(
-                "falls with slip velocity, Eq. (8): \u{3bc}_S = {mu_static}, \u{3bc}_D = {mu_dynamic}, k = {decay} s/m"
+                "exponential, falls with the slip speed: \u{3bc}_S = {mu_static}, \u{3bc}_D = {mu_dynamic}, k = {decay} s/m"
             ),
         ),
         None => row("friction", "the coefficient that the data give".into()),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use creepage::check::{CheckResult, Limit, Measure, Metric, SlipQuantity, SlipZoneFound};
+use creepage::check::{CheckResult, Limit, Measure, Metric, SlipQuantity, SlipZoneFound, Verdict};
 
 use super::layout::{count, digits, heading};
 
@@ -34,7 +34,7 @@ pub fn text(result: &CheckResult) -> String {
     let _ = writeln!(out, "  slip paired with traction: {}\n", result.pairing.reported.slip());
     let _ = writeln!(
         out,
-        "  {:<20}{:>11} {:<4}{:>14}  {:<6}where",
+        "  {:<30}{:>11} {:<4}{:>14}  {:<8}where",
         "measure", "value", "", "limit", ""
     );
     for measure in Measure::ALL {
@@ -42,11 +42,11 @@ pub fn text(result: &CheckResult) -> String {
             continue;
         };
         let line = format!(
-            "  {measure:<20}{:>11} {:<4}{:>14}  {:<6}{}",
+            "  {measure:<30}{:>11} {:<4}{:>14}  {:<8}{}",
             digits(metric.value, 3),
             unit(&metric.units),
             limit(metric.limit),
-            verdict(metric),
+            metric.verdict().word(),
             place(metric),
         );
         let _ = writeln!(out, "{}", line.trim_end());
@@ -56,8 +56,25 @@ pub fn text(result: &CheckResult) -> String {
     for note in &result.notes {
         let _ = writeln!(out, "note: {note}");
     }
-    let word = if result.pass { "every limit holds" } else { "NOT every limit holds" };
-    let _ = writeln!(out, "\n{word}");
+    let _ = writeln!(out, "\n{}", conclusion(result));
+    out
+}
+
+/// Whether every limit holds; what springs do apart from what is wrong.
+fn conclusion(result: &CheckResult) -> String {
+    if result.pass {
+        return "every limit holds".into();
+    }
+    let mut out = String::from("NOT every limit holds");
+    for (verdict, about) in
+        [(Verdict::Springs, " (of nodes that stick: known of the method)"), (Verdict::Fail, "")]
+    {
+        let found = result.with_verdict(verdict);
+        if !found.is_empty() {
+            let names: Vec<&str> = found.iter().map(|measure| measure.name()).collect();
+            let _ = write!(out, "\n  {:<8}{}{about}", verdict.word(), names.join(", "));
+        }
+    }
     out
 }
 
@@ -72,14 +89,6 @@ fn limit(limit: Option<Limit>) -> String {
             format!("{}..{}", creepage::check::all_digits(low), creepage::check::all_digits(high))
         }
         None => "-".into(),
-    }
-}
-
-fn verdict(metric: &Metric) -> &'static str {
-    match metric.keeps_limit() {
-        None => "",
-        Some(true) => "pass",
-        Some(false) => "FAIL",
     }
 }
 

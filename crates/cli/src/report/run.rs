@@ -78,7 +78,7 @@ const CONTACT: [Line; 15] = [
     Line("creepage", Mean::Creepage, 1e3, "1e-3", |_| None),
     Line("patch half length", Mean::PatchHalfLength, 1e3, "mm", |hertz| hertz.half_length),
     Line("patch half width", Mean::PatchHalfWidth, 1e3, "mm", |hertz| hertz.half_width),
-    Line("patch area (nodes)", Mean::PatchArea, 1e6, "mm2", |hertz| hertz.area),
+    Line("patch area (nodes)", Mean::PatchArea, 1e6, "mm2", |_| None),
     Line("patch area (fit)", Mean::PatchAreaFitted, 1e6, "mm2", |hertz| hertz.area),
     Line("peak pressure", Mean::PeakPressure, 1e-6, "MPa", |hertz| hertz.peak_pressure),
     Line("peak shear", Mean::PeakShear, 1e-6, "MPa", |_| None),
@@ -122,12 +122,19 @@ fn contact(out: &mut String, summary: &Summary) {
     let share = |part: Option<f64>| format!("{} %", digits(scaled(part, 100.0), 3));
     let _ = writeln!(
         out,
-        "  sticks on {} of the patch, slips on {}",
+        "  by the state of friction, sticks on {} of the patch, slips on {}",
         share(summary.contact.stick_fraction),
         share(summary.contact.slip_fraction)
     );
     if summary.rolling_radius.is_some_and(|radius| radius.free.is_some()) {
         let _ = writeln!(out, "  without torque: this creepage is that of free rolling");
+    }
+    if !of_half_spaces(summary) {
+        let _ = writeln!(
+            out,
+            "  normal force: the load and what moves the disk up and down; torque: T R and what turns it faster or \
+             slower\n  area (nodes): whole cells of the nodes in contact"
+        );
     }
     mesh_mode(out, summary);
     let hertz = summary.half_space.is_some_and(|hertz| hertz.peak_pressure.is_some());
@@ -172,6 +179,10 @@ fn energy(out: &mut String, summary: &Summary) {
         .then(|| format!("{:.2} % of internal", 100.0 * hourglass / internal));
     let bodies = !of_half_spaces(summary);
     let energy = &summary.energy;
+    let others = energy.internal + energy.hourglass + energy.contact_stored;
+    let others = others + energy.friction_dissipated + energy.damping_dissipated;
+    let kinetic = (bodies && energy.kinetic > 0.0)
+        .then(|| format!("of it {} J kinetic", digits(Some(energy.external_work - others), 4)));
     for (label, joules, shown, remark) in [
         ("kinetic", energy.kinetic, bodies, None),
         ("internal", energy.internal, true, None),
@@ -179,7 +190,7 @@ fn energy(out: &mut String, summary: &Summary) {
         ("stored in contact", energy.contact_stored, bodies, None),
         ("dissipated by friction", energy.friction_dissipated, true, None),
         ("dissipated by damping", energy.damping_dissipated, bodies, None),
-        ("external work", energy.external_work, true, None),
+        ("external work", energy.external_work, true, kinetic),
     ] {
         if shown {
             row(out, label, &digits(Some(joules), 4), "J", &remark.unwrap_or_default());

@@ -16,7 +16,7 @@ const COLUMNS: [Column; 5] = [
     ("creepage 1e-3", |run| Some(1e3 * run.summary.as_ref()?.contact.creepage?)),
     ("peak p MPa", |run| Some(1e-6 * run.summary.as_ref()?.contact.peak_pressure?)),
     ("violating", |run| run.check.as_ref()?.metrics.get(&Measure::ViolatingFraction)?.value),
-    ("roughness", |run| run.check.as_ref()?.metrics.get(&Measure::RoughnessRatio)?.value),
+    ("roughness_ratio", |run| run.check.as_ref()?.metrics.get(&Measure::RoughnessRatio)?.value),
 ];
 
 /// The whole page.
@@ -27,7 +27,7 @@ pub fn text(sweep: &SweepResult, folder: &Path, page: &Path) -> String {
     let width = runs.iter().map(|run| name(run).len()).max().unwrap_or(0).max(4);
     let _ = write!(out, "{:<width$}  {:<11}", "run", "status");
     COLUMNS.iter().for_each(|(heading, ..)| {
-        let _ = write!(out, "{heading:>15}");
+        let _ = write!(out, "{heading:>16}");
     });
     let _ = writeln!(out, "{:>12}", "wall time");
     for run in runs {
@@ -35,7 +35,7 @@ pub fn text(sweep: &SweepResult, folder: &Path, page: &Path) -> String {
         let _ = write!(out, "{:<width$}  {status:<11}", name(run));
         for (_, value) in COLUMNS {
             let value = value(run).filter(|_| run.completed());
-            let _ = write!(out, "{:>15}", digits(value, 4));
+            let _ = write!(out, "{:>16}", digits(value, 4));
         }
         let time = run.summary.as_ref().map(|summary| summary.wall_s);
         let _ = writeln!(out, "{:>12}", duration(time));

@@ -211,7 +211,7 @@ section! {
         /// `"creepage"`.
         #[serde(default)]
         mode: DriveMode => word(DriveMode::WORDS);
-        /// Longitudinal creepage (omega R_eff - V)/V (dimensionless), positive when driving; R_eff is
+        /// Longitudinal creepage (omega R_eff - V)/V (dimensionless), positive when driving, negative when braking; R_eff is
         /// the effective rolling radius that the preload gives. Either a number, or a table over time: pairs of
         /// time (s of rolling, rising from 0) and creepage, which is linear between them and constant after the last.
         /// Required with `mode = "creepage"`, refused with `"torque"`.

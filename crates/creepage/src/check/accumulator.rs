@@ -9,9 +9,11 @@ use crate::check::statistics::{Moments, Occurrence, Spread};
 
 /// The tangential conditions on one view of the interface in one pairing.
 pub(crate) struct Accumulator {
-    /// Area times time (m2 s) of contact, and of contact that violates the conditions.
+    /// Area times time (m2 s) of contact, of contact that violates the conditions, and of the part of that whose state
+    /// by the algorithm is slip.
     contact: f64,
     violating: f64,
+    violating_slip_state: f64,
     /// Time and share of the record with the largest share in violation.
     worst_record: Option<(f64, f64)>,
     /// Violating area and all area of contact in this record (m2).
@@ -55,6 +57,7 @@ impl Accumulator {
         Self {
             contact: 0.0,
             violating: 0.0,
+            violating_slip_state: 0.0,
             worst_record: None,
             record: [0.0; 2],
             violating_of_records: Moments::default(),
@@ -92,6 +95,9 @@ impl Accumulator {
         if judged.violates {
             self.violating += weight;
             self.record[0] += area;
+            if judged.slip_state {
+                self.violating_slip_state += weight;
+            }
         }
         if let Some(error) = judged.law_error {
             self.law_error.add(weight, error, row, time);
@@ -227,6 +233,9 @@ impl Accumulator {
                 let place = place.map(|(time, share)| (None, time, share));
                 let deviation = self.violating_of_records.deviation();
                 Statistic { deviation, ..plain(share([self.violating, self.contact]), place) }
+            }
+            Measure::ViolatingFractionSlipState => {
+                plain(share([self.violating_slip_state, self.contact]), None)
             }
             Measure::RoughnessRatio => {
                 let deviations = self.roughness.as_ref().and_then(Roughness::deviations);

@@ -6,12 +6,13 @@ use crate::check::accumulator::{Statistic, Switches};
 use crate::check::basis::{Basis, Bound, SCALES};
 use crate::check::conditions::{DIRECTION_TOLERANCE, IN_ADHESION, IN_CONTACT, LAW_TOLERANCE};
 use crate::check::law::Law;
-use crate::check::limits::Limits;
+use crate::check::limits::{Limits, MethodKind};
 use crate::check::measure::Measure;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::result::{
-    CheckResult, Detail, LawFollowed, LawUsed, MeshModeFound, Metric, OnView, PairingUsed,
-    PatchMean, Place, Reported, ScaleUsed, Sides, SlipZoneFound, Statistics, Tolerances, View,
+    CheckResult, Detail, IN_SLIP_STATE, LawFollowed, LawUsed, MeshModeFound, Metric, OnView,
+    PairingUsed, PatchMean, Place, Reported, ScaleUsed, Sides, SlipZoneFound, Statistics,
+    Tolerances, View,
 };
 use crate::check::surface::body_name;
 use crate::check::window::Window;
@@ -52,14 +53,15 @@ impl Evaluation<'_> {
             Measure::SwitchingRate => self.switching(limits),
             _ => self.metric(measure, limits, reported, basis),
         };
-        let metrics: BTreeMap<_, _> =
+        let mut metrics: BTreeMap<_, _> =
             Measure::ALL.iter().map(|measure| (*measure, metric(*measure))).collect();
+        attribute_to_springs(limits.kind, &mut metrics);
         let other = self.channels.iter().filter(|channel| channel.pairing != own);
         let crossed = other.map(|channel| channel.accumulator.records).max().unwrap_or(0);
         let law_followed = self.followed();
-        let notes = compliance_note(&metrics)
+        let notes = self
+            .gaps(crossed)
             .into_iter()
-            .chain(self.gaps(crossed))
             .chain(beside.mesh_mode.mode.warnings.iter().cloned())
             .chain(self.law_note(&metrics, &law_followed))
             .chain(beside.slip_note);
@@ -359,7 +361,9 @@ impl Evaluation<'_> {
             M::LawError | M::LawErrorSlipState | M::RoughnessRatio | M::LawScatter if no_law => {
                 "the friction law is not known"
             }
-            M::LawErrorSlipState | M::DirectionSlipState if !has.state => {
+            M::LawErrorSlipState | M::DirectionSlipState | M::ViolatingFractionSlipState
+                if !has.state =>
+            {
                 "the file has no field state"
             }
             M::LawErrorOwn | M::MuError | M::MuErrorUncertain if !has.mu => {
@@ -389,29 +393,16 @@ impl Evaluation<'_> {
     }
 }
 
-/// Measures that the compliance of penalty springs takes beyond their limits.
-const AFFECTED_BY_COMPLIANCE: [Measure; 3] =
-    [Measure::LawError, Measure::Direction, Measure::ViolatingFraction];
-
-/// A note for the case that law and direction fail over all slip, but hold at nodes whose state by the algorithm
-/// is slip.
-fn compliance_note(metrics: &BTreeMap<Measure, Metric>) -> Option<String> {
-    let failed: Vec<&str> = AFFECTED_BY_COMPLIANCE
-        .iter()
-        .filter(|measure| !metrics[measure].pass)
-        .map(|measure| measure.name())
-        .collect();
-    let own = [Measure::LawErrorSlipState, Measure::DirectionSlipState];
-    let measured_and_kept = |measure: &Measure| {
-        metrics[measure].value.is_some() && metrics[measure].keeps_limit() == Some(true)
-    };
-    (!failed.is_empty() && own.iter().all(measured_and_kept)).then(|| {
-        format!(
-            "law and direction hold at nodes that the algorithm lets slip; penalty springs that deform at \
-             nodes held in stick take {} beyond the limit (docs/checks.md, What penalty can pass)",
-            failed.join(", ")
-        )
-    })
+/// Marks the measures that springs in stick take beyond their limits: hardly anything is left of them where the
+/// algorithm's state is slip.
+fn attribute_to_springs(kind: MethodKind, metrics: &mut BTreeMap<Measure, Metric>) {
+    for measure in Measure::ALL {
+        let left = measure.in_slip_state().and_then(|own| metrics[&own].value);
+        let Some(metric) = metrics.get_mut(measure).filter(|metric| !metric.pass) else { continue };
+        let little = |(left, all): (f64, f64)| left <= IN_SLIP_STATE * all;
+        metric.by_springs =
+            kind == MethodKind::Penalty && left.zip(metric.value).is_some_and(little);
+    }
 }
 
 /// Every statistic of every part of the interface and pairing.
@@ -452,5 +443,41 @@ fn law_used(basis: &Basis, followed: bool) -> LawUsed {
             ..none
         },
         None => none,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::result::Verdict;
+
+    /// The verdict on the law, for its error and what is left of it where the algorithm's state is slip.
+    fn law(kind: MethodKind, [all, left]: [f64; 2]) -> Verdict {
+        let limits = Limits::for_enforcement(None);
+        let metric = |measure: &Measure| {
+            let value = match measure {
+                Measure::LawError => all,
+                Measure::LawErrorSlipState => left,
+                _ => 0.0,
+            };
+            (*measure, Metric::new(*measure, Some(value), limits.of(*measure), false))
+        };
+        let mut metrics = Measure::ALL.iter().map(metric).collect();
+        attribute_to_springs(kind, &mut metrics);
+        metrics[&Measure::LawError].verdict()
+    }
+
+    #[test]
+    fn springs_account_for_a_measure_of_which_a_tenth_or_less_is_left_in_slip_and_for_nothing_else()
+    {
+        let penalty = MethodKind::Penalty;
+        assert_eq!(law(penalty, [0.5, 0.05]), Verdict::Springs);
+        assert_eq!(law(penalty, [0.5, 0.051]), Verdict::Fail);
+        assert_eq!(law(penalty, [0.02, 0.0]), Verdict::Pass);
+        assert_eq!(
+            law(MethodKind::Exact, [0.5, 0.0]),
+            Verdict::Fail,
+            "exact contact has no springs"
+        );
     }
 }

@@ -73,6 +73,8 @@ measures! {
     WrongDirection "wrong_direction" ("1", "share", "slip with that angle above 90 deg", None, None)
     Dissipation "dissipation" ("1", "share", "contact power of the wrong sign", most(0.0), None)
     ViolatingFraction "violating_fraction" ("1", "share", "of the contact area", most(0.0), most(0.05))
+    ViolatingFractionSlipState "violating_fraction_slip_state"
+        ("1", "share", "violating_fraction where the algorithm's state is slip", None, most(0.05))
     RoughnessRatio "roughness_ratio"
         ("1", "ratio", "sd_t(p_f/p_n) over sd_t(mu(|s|)) in slip", between(0.999, 1.001), between(0.8, 1.25))
     LawScatter "law_scatter" ("1", "rms", "distance from the law's graph", most(1e-8), None)
@@ -98,6 +100,16 @@ impl Measure {
     /// Its name in documents and options.
     pub const fn name(self) -> &'static str {
         self.definition().name
+    }
+
+    /// The same measure where the algorithm's state is slip: without the deformation of penalty springs in stick.
+    pub const fn in_slip_state(self) -> Option<Self> {
+        match self {
+            Self::LawError => Some(Self::LawErrorSlipState),
+            Self::Direction => Some(Self::DirectionSlipState),
+            Self::ViolatingFraction => Some(Self::ViolatingFractionSlipState),
+            _ => None,
+        }
     }
 
     /// Its name and its aliases.

@@ -120,6 +120,10 @@ pub struct Metric {
     pub limit: Option<Limit>,
     /// Whether it is within its limit. Without a value it fails only where the user set the limit.
     pub pass: bool,
+    /// Whether penalty springs that deform in stick take it beyond its limit: at most [`IN_SLIP_STATE`] of it is left
+    /// where the algorithm's state is slip.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub by_springs: bool,
     /// Where and when it is worst.
     #[serde(rename = "where")]
     pub place: Option<Place>,
@@ -183,10 +187,48 @@ impl Metric {
         statistics.more.get(&detail).copied().flatten()
     }
 
+    /// How it stands to its limit.
+    pub fn verdict(&self) -> Verdict {
+        match self.keeps_limit() {
+            None => Verdict::None,
+            Some(true) => Verdict::Pass,
+            Some(false) if self.by_springs => Verdict::Springs,
+            Some(false) => Verdict::Fail,
+        }
+    }
+
     /// Whether it keeps its limit; `None` without a limit, or without a value that could keep it.
     pub fn keeps_limit(&self) -> Option<bool> {
         let without = self.limit.is_none() || (self.value.is_none() && self.pass);
         (!without).then_some(self.pass)
+    }
+}
+
+/// What is left of a measure where the algorithm's state is slip, at most, if springs account for the rest.
+pub(super) const IN_SLIP_STATE: f64 = 0.1;
+
+/// How a measure stands to its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It has no limit, or no value that could keep one.
+    None,
+    /// It keeps its limit.
+    Pass,
+    /// It exceeds its limit because penalty springs deform in stick, which is known of the method.
+    Springs,
+    /// It exceeds its limit.
+    Fail,
+}
+
+impl Verdict {
+    /// The word for it in tables.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::None => "",
+            Self::Pass => "pass",
+            Self::Springs => "springs",
+            Self::Fail => "FAIL",
+        }
     }
 }
 
@@ -572,6 +614,12 @@ impl CheckResult {
     /// Hands out the measures that fail their limits.
     pub fn beyond_limit(&self) -> impl Iterator<Item = Measure> + '_ {
         self.metrics.iter().filter(|(_, metric)| !metric.pass).map(|(measure, _)| *measure)
+    }
+
+    /// The measures with this verdict.
+    pub fn with_verdict(&self, verdict: Verdict) -> Vec<Measure> {
+        let found = self.metrics.iter().filter(|(_, metric)| metric.verdict() == verdict);
+        found.map(|(measure, _)| *measure).collect()
     }
 }
 

@@ -12,7 +12,7 @@ const MEANINGS: [Meaning; 8] = [
     (
         |n| n.r,
         "R = p0 k \u{394}\u{3bc}/Z",
-        "above 1 Eq. (8) alone is ill-posed between elastic bodies: three states are possible at one load, \
+        "above 1 the law without memory is ill-posed between elastic bodies: three states are possible at one load, \
          disturbances grow the faster the finer the mesh, and no refinement converges point by point; below 1 \
          the bodies radiate energy faster than falling friction feeds it",
     ),
@@ -31,17 +31,17 @@ const MEANINGS: [Meaning; 8] = [
     (
         |n| n.f_min,
         "f_min/p0",
-        "the least shear over pressure at which slip goes on by Eq. (8) alone",
+        "the least shear over pressure at which slip goes on by the law without memory",
     ),
     (
         |n| n.s_m,
         "s_m (m/s)",
-        "between rest and this slip speed no state is stable by Eq. (8) alone",
+        "between rest and this slip speed no state is stable by the law without memory",
     ),
     (
         |n| n.s_jump,
         "s_jump (m/s)",
-        "slip speed to which a point jumps by Eq. (8) alone when it begins to slip",
+        "slip speed to which a point jumps by the law without memory when it begins to slip",
     ),
     (
         |n| n.nucleation_length,

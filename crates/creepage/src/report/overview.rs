@@ -3,9 +3,10 @@
 use super::{escape, worth};
 use crate::check::basis::Basis;
 use crate::check::digits::digits;
+use crate::check::limits::Limit;
 use crate::check::measure::Measure;
 use crate::check::patch_series::{PATCH_TABLE, PatchLine, PatchMeasure};
-use crate::check::result::CheckResult;
+use crate::check::result::{CheckResult, Verdict};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use output::summary::Status;
@@ -33,8 +34,9 @@ pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &
     out.push_str("<h2 id=\"overview\">What happened</h2>\n");
     let (class, text) = ending(basis);
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
-    let (class, text) = conditions(checked);
-    let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
+    for (class, text) in conditions(checked) {
+        let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
+    }
     let _ = writeln!(out, "<div class=\"wide\">{}</div>", numbers(basis, checked));
     out.push_str(&super::scene::section(folder));
 }
@@ -61,31 +63,92 @@ fn ending(basis: &Basis) -> (&'static str, String) {
     }
 }
 
-/// Whether contact obeys its conditions, which is a matter of the method, not of whether the run worked.
-fn conditions(checked: &CheckResult) -> (&'static str, String) {
+/// Whether contact obeys its conditions, which is a matter of the method, not of whether the run worked: what is known
+/// of penalty springs apart from what is wrong.
+fn conditions(checked: &CheckResult) -> Vec<(&'static str, String)> {
     if checked.pass {
-        return ("pass", "Its contact obeys the contact conditions within all limits.".into());
+        return vec![(
+            "pass",
+            "Its contact obeys the contact conditions within all limits.".into(),
+        )];
     }
-    let names: Vec<&str> = checked.beyond_limit().map(Measure::name).collect();
-    let by = checked.limits_for;
-    let violating = checked.metrics.get(&Measure::ViolatingFraction);
-    let share = violating
-        .and_then(|metric| metric.value)
-        .map(|share| {
+    let springs = checked.with_verdict(Verdict::Springs);
+    let mut wrong = checked.with_verdict(Verdict::Fail);
+    let mut found = Vec::new();
+    if !springs.is_empty() {
+        found.push(("springs", in_stick(checked, &springs)));
+        let own: Vec<_> = springs.iter().filter_map(|measure| measure.in_slip_state()).collect();
+        let class = if own.iter().any(|own| wrong.contains(own)) { "fail" } else { "pass" };
+        wrong.retain(|measure| !own.contains(measure));
+        found.push((class, in_slip(checked, &own)));
+    }
+    if !wrong.is_empty() {
+        let share = value(checked, Measure::ViolatingFraction).filter(|_| springs.is_empty());
+        let share = share.map(|share| {
             let share = digits(100.0 * share, 2);
             format!(
                 "On {share} % of contact area and time, the conditions of contact are violated. "
             )
-        })
-        .unwrap_or_default();
-    (
-        "fail",
-        format!(
-            "{share}The limits of {by} methods are exceeded by {}. This is a finding about the method, not a failure \
-             of the run.",
-            names.join(", ")
-        ),
+        });
+        let text = format!(
+            "{}The limits of {} methods are exceeded by {}. This is a finding about the method, not a failure of the run.",
+            share.unwrap_or_default(),
+            checked.limits_for,
+            names(&wrong)
+        );
+        found.push(("fail", text));
+    }
+    found
+}
+
+/// What springs in stick do, and how much of it.
+fn in_stick(checked: &CheckResult, springs: &[Measure]) -> String {
+    let slip = value(checked, Measure::AdhesionSlip);
+    let slip = slip.map(|slip| format!(", at up to {} times the rigid slip", digits(slip, 2)));
+    format!(
+        "Penalty springs deform: nodes that stick move{}. This is known of the method; it takes {} beyond the limit.",
+        slip.unwrap_or_default(),
+        names(springs)
     )
+}
+
+/// What is left of these measures where the algorithm lets nodes slip.
+fn in_slip(checked: &CheckResult, own: &[Measure]) -> String {
+    let part = |measure: &Measure| {
+        let metric = checked.metrics.get(measure)?;
+        let (value, Limit::Most(most)) = (metric.value?, metric.limit?) else { return None };
+        let percent = |share: f64| format!("{} %", digits(100.0 * share, 2));
+        let degrees = |angle: f64| format!("{} degrees", digits(angle, 2));
+        Some(match measure {
+            Measure::LawErrorSlipState => {
+                format!(
+                    "the shear differs from its bound by {} (limit {})",
+                    percent(value),
+                    percent(most)
+                )
+            }
+            Measure::DirectionSlipState => format!(
+                "its direction from that against the slip by {} (limit {})",
+                degrees(value),
+                degrees(most)
+            ),
+            _ => format!(
+                "the conditions are violated on {} of the contact (limit {})",
+                percent(value),
+                percent(most)
+            ),
+        })
+    };
+    let parts: Vec<String> = own.iter().filter_map(part).collect();
+    format!("Where the algorithm lets nodes slip, {}.", parts.join("; "))
+}
+
+fn value(checked: &CheckResult, measure: Measure) -> Option<f64> {
+    checked.metrics.get(&measure)?.value
+}
+
+fn names(measures: &[Measure]) -> String {
+    measures.iter().map(|measure| measure.name()).collect::<Vec<_>>().join(", ")
 }
 
 /// The numbers that matter.

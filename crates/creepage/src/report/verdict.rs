@@ -86,6 +86,10 @@ pub(super) fn verdict(measure: Measure, metric: &Metric) -> String {
         Measure::ViolatingFraction => {
             format!("On {} of the contact area and time, the conditions are violated.", percent(value))
         }
+        Measure::ViolatingFractionSlipState => format!(
+            "At nodes that the algorithm lets slip, the conditions are violated on {} of contact area and time.",
+            percent(value)
+        ),
         Measure::RoughnessRatio => {
             let meaning = match value {
                 v if v < 0.8 => "the traction is too smooth for its slip",

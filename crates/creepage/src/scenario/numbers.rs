@@ -129,9 +129,9 @@ impl DimensionlessNumbers {
                 three(gamma)
             )),
             None if f.r > 1.0 => Some(format!(
-                "R = {} is above 1 and friction has no memory: Eq. (8) has no solution that meshes \
-                 converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in \
-                 its place",
+                "R = {} is above 1: friction that falls with the slip speed of the instant has no solution that \
+                 meshes converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in its \
+                 place ([friction.memory] gives a solution)",
                 three(f.r),
                 f.s_jump.unwrap_or(0.0)
             )),

@@ -190,7 +190,7 @@ MeanValue = TypedDict(
 )
 
 # A measure of the contact conditions; `docs/checks.md` defines each.
-Measure = Literal["penetration", "tension", "complementarity", "cone", "adhesion_slip", "mu_error", "mu_error_uncertain", "law_error", "law_error_own", "law_error_slip_state", "direction", "direction_slip_state", "wrong_direction", "dissipation", "violating_fraction", "roughness_ratio", "law_scatter", "switching_rate", "mesh_mode"]
+Measure = Literal["penetration", "tension", "complementarity", "cone", "adhesion_slip", "mu_error", "mu_error_uncertain", "law_error", "law_error_own", "law_error_slip_state", "direction", "direction_slip_state", "wrong_direction", "dissipation", "violating_fraction", "violating_fraction_slip_state", "roughness_ratio", "law_scatter", "switching_rate", "mesh_mode"]
 
 # Whether slip and the elements below the contact show a mode of the mesh.
 MeshMode = TypedDict(
@@ -234,6 +234,7 @@ Metric = TypedDict(
     "Metric",
     {
         "about": str,  # Its definition.
+        "by_springs": NotRequired[bool],  # Whether penalty springs that deform in stick take it beyond its limit: at most [`IN_SLIP_STATE`] of it is left where the algorithm's state is slip.
         "deviation": float | None,  # Standard deviation over the records of the same statistic of single records.
         "limit": Limit | None,  # Its limit.
         "note": NotRequired[str | None],  # Why there is no value.
