@@ -393,13 +393,14 @@ impl Evaluation<'_> {
     }
 }
 
-/// Marks the measures that springs in stick take beyond their limits: hardly anything is left of them where the
-/// algorithm's state is slip.
+/// Marks the measures that springs in stick take beyond their limits: what is left of them where the algorithm's state
+/// is slip keeps its limit, or is little.
 fn attribute_to_springs(kind: MethodKind, metrics: &mut BTreeMap<Measure, Metric>) {
     for measure in Measure::ALL {
-        let left = measure.in_slip_state().and_then(|own| metrics[&own].value);
+        let own = measure.in_slip_state().map(|own| &metrics[&own]);
+        let (left, keeps) = (own.and_then(|own| own.value), own.is_some_and(|own| own.pass));
         let Some(metric) = metrics.get_mut(measure).filter(|metric| !metric.pass) else { continue };
-        let little = |(left, all): (f64, f64)| left <= IN_SLIP_STATE * all;
+        let little = |(left, all): (f64, f64)| keeps || left <= IN_SLIP_STATE * all;
         metric.by_springs =
             kind == MethodKind::Penalty && left.zip(metric.value).is_some_and(little);
     }
@@ -468,11 +469,11 @@ mod tests {
     }
 
     #[test]
-    fn springs_account_for_a_measure_of_which_a_tenth_or_less_is_left_in_slip_and_for_nothing_else()
-    {
+    fn springs_account_for_a_measure_of_which_little_is_left_in_slip_and_for_nothing_else() {
         let penalty = MethodKind::Penalty;
         assert_eq!(law(penalty, [0.5, 0.05]), Verdict::Springs);
         assert_eq!(law(penalty, [0.5, 0.051]), Verdict::Fail);
+        assert_eq!(law(penalty, [0.03, 0.02]), Verdict::Springs, "what is left keeps the limit");
         assert_eq!(law(penalty, [0.02, 0.0]), Verdict::Pass);
         assert_eq!(
             law(MethodKind::Exact, [0.5, 0.0]),

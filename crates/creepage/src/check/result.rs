@@ -120,8 +120,8 @@ pub struct Metric {
     pub limit: Option<Limit>,
     /// Whether it is within its limit. Without a value it fails only where the user set the limit.
     pub pass: bool,
-    /// Whether penalty springs that deform in stick take it beyond its limit: at most [`IN_SLIP_STATE`] of it is left
-    /// where the algorithm's state is slip.
+    /// Whether penalty springs that deform in stick take it beyond its limit: what is left of it where the algorithm's
+    /// state is slip keeps its limit, or is at most a tenth of it.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub by_springs: bool,
     /// Where and when it is worst.
