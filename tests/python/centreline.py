@@ -4,7 +4,7 @@
 
 Top: pressure, shear traction and the bound mu p of the coefficient that the algorithm used.
 Middle: slip velocity of the bar relative to the disk along x, over the step before.
-Bottom: |shear|/pressure. Positions are relative to the hub; rolling is to the right.
+Bottom: |shear|/pressure. Positions are relative to the centre of the patch (patch_x of history.h5), as in creepage plot; rolling is to the right.
 """
 
 import pathlib
@@ -39,12 +39,12 @@ def draw(axes, run):
     steps = int(grid["Steps"].attrs["NSteps"])
     for colour, step in zip(COLOURS, range(max(steps - 3, 0), steps)):
         time = grid["Steps/Values"][step]
-        hub = np.interp(time, history["time"][:], history["hub_x"][:])
+        centre = np.interp(time, history["time"][:], history["hub_x"][:] + history["patch_x"][:])
         field = lambda name: grid["PointData/" + name][step * count : (step + 1) * count][rows]
         pressure, shear = field("pressure"), np.linalg.norm(field("shear"), axis=1)
         bound, slip = field("mu") * pressure, field("slip_velocity")[:, 0]
         touch = pressure > 0
-        x = (points[rows, 0] - hub)[touch] * 1e3
+        x = (points[rows, 0] - centre)[touch] * 1e3
         label = f"t = {time * 1e6:.1f} µs"
         axes[0].plot(x, pressure[touch] / 1e6, color="0.4", lw=1)
         axes[0].plot(x, shear[touch] / 1e6, color=colour, marker=".", label=label)
@@ -54,10 +54,10 @@ def draw(axes, run):
     axes[0].set_title(run.name)
     axes[0].set_ylabel("pressure (grey), shear,\nbound µp (dotted) (MPa)")
     axes[0].legend(fontsize=8)
-    axes[1].set_ylabel("slip velocity, x (m/s)")
+    axes[1].set_ylabel("slip velocity of the bar, x (m/s)")
     axes[2].set_ylabel("shear / pressure")
     axes[2].set_ylim(0, 0.6)
-    axes[2].set_xlabel("x relative to the hub (mm)")
+    axes[2].set_xlabel("x from the patch's centre (mm)")
 
 
 def main():

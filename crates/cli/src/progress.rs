@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use creepage::run::progress_lines::{self, ProgressLines};
 use creepage::{Cost, Listener, Progress, Stage, Watched};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressFinish, ProgressStyle};
 
@@ -23,10 +24,11 @@ impl Listener for Remarks<'_> {
     }
 }
 
-/// Watches a run: a bar on standard error where that is a terminal, silence elsewhere.
+/// Watches a run: a bar on standard error where that is a terminal, a line every minute elsewhere.
 pub struct RunWatch<'a> {
     args: &'a Args,
     bar: ProgressBar,
+    lines: ProgressLines,
     stage: Option<Stage>,
 }
 
@@ -34,7 +36,8 @@ impl<'a> RunWatch<'a> {
     /// A watch that has seen nothing yet.
     pub fn new(args: &'a Args) -> Self {
         let bar = bar(args.quiet, of_stage(Stage::Mesh));
-        Self { args, bar, stage: None }
+        let lines = ProgressLines::new(progress_lines::INTERVAL, Instant::now());
+        Self { args, bar, lines, stage: None }
     }
 }
 
@@ -56,6 +59,8 @@ impl Listener for RunWatch<'_> {
             self.bar.suspend(|| self.args.say(&said));
         }
         if self.bar.is_hidden() {
+            let line = self.lines.due(progress, Instant::now());
+            line.iter().for_each(|line| self.args.say(line));
             return;
         }
         if self.stage != Some(progress.stage) {

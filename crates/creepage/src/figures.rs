@@ -69,12 +69,12 @@ pub fn figures(
     let mut all = vec![
         Named {
             stem: "figure-1-velocities",
-            about: "velocities of the surface nodes of both bodies along y = 0, and their difference",
+            about: "velocities of the surface nodes along y = 0, and the slip velocity",
             figure: lines::velocities(&scene),
         },
         Named {
             stem: "figure-2-stick-slip",
-            about: "where the patch sticks and slips at three instants",
+            about: "where and how fast the patch slips, at up to three instants",
             figure: maps::stick_slip(&scene),
         },
         Named {

@@ -15,6 +15,7 @@ use crate::check::patch_series::{PATCH_TABLE, PatchLine, PatchMeasure};
 use crate::check::result::{CheckResult, LawUsed, ScaleUsed};
 use crate::figures::Named;
 use crate::scene::SceneError;
+use crate::sweep::plan::quoted;
 use output::files::made::PAGE_MARK;
 use output::layout::file;
 use output::summary::Summary;
@@ -306,6 +307,19 @@ fn energy(out: &mut String, basis: &Basis) {
     }
 }
 
+/// The commands that repeat the run in `folder`, into a folder beside it.
+fn repeating(folder: &Path) -> String {
+    let beside = match folder.file_name() {
+        Some(name) => folder.with_file_name(format!("{}-again", name.to_string_lossy())),
+        None => folder.join("again"),
+    };
+    let [case, again] =
+        [folder.join(file::CASE), beside].map(|path| quoted(&path.to_string_lossy()));
+    format!(
+        "creepage run {case} --out {again}\ncreepage check {again}\ncreepage plot {again}\ncreepage report {again}"
+    )
+}
+
 fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
     out.push_str("<h3 id=\"reproduce\">How to reproduce</h3>\n");
     let friction = basis.case.as_ref().and_then(|case| case.get("friction"));
@@ -321,10 +335,12 @@ fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
              the one below.</p>\n",
         );
     } else {
-        out.push_str(
-            "<p>In the folder of the run, or where the case below is saved as case.toml:</p>\n<pre>creepage run \
-             case.toml --out again\ncreepage check again\ncreepage plot again\ncreepage report again</pre>\n\
-             <p>Running the resolved case again gives the same bits on the same kind of processor.</p>\n",
+        let _ = writeln!(
+            out,
+            "<p>In the folder from which <code>creepage report</code> was started, or with the case below saved there \
+             as a file:</p>\n<pre>{}</pre>\n\
+             <p>Running the resolved case again gives the same bits on the same kind of processor.</p>",
+            escape(&repeating(folder))
         );
     }
     let _ = writeln!(out, "<p>Made by Creepage {}.</p>", env!("CARGO_PKG_VERSION"));
@@ -348,6 +364,20 @@ mod tests {
         assert_eq!(worth(0.261_23, Some(0.3)), "0.3");
         assert_eq!(worth(0.261_23, None), "0.2612");
         assert_eq!(worth(0.261_23, Some(1e-9)), "0.2612");
+    }
+
+    #[test]
+    fn the_commands_that_repeat_a_run_name_its_folder_as_it_was_named() {
+        let first = |folder: &str| repeating(Path::new(folder)).lines().next().map(str::to_owned);
+        for (folder, case, again) in [
+            ("runs/quick", "runs/quick/case.toml", "runs/quick-again"),
+            ("runs/quick/", "runs/quick/case.toml", "runs/quick-again"),
+            ("a run", "'a run/case.toml'", "'a run-again'"),
+            (".", "./case.toml", "./again"),
+            ("..", "../case.toml", "../again"),
+        ] {
+            assert_eq!(first(folder), Some(format!("creepage run {case} --out {again}")));
+        }
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod mesh_report;
 mod options;
 mod postmortem;
 mod probes;
+pub mod progress_lines;
 mod record;
 pub mod resume;
 mod summary;

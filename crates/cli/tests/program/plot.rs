@@ -104,3 +104,30 @@ fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
         .unwrap();
     assert_eq!(refused.status.code(), Some(2));
 }
+
+#[test]
+fn captions_speak_of_the_bodies_and_instants_that_are_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    write_with(folder.path(), COULOMB, "other", 2, 1e-6, Leave::default(), |x, step| {
+        perfect(COULOMB, x, step)
+    });
+    let output = Command::new(env!("CARGO_BIN_EXE_creepage"))
+        .args(["plot", folder.path().to_str().unwrap(), "--format", "svg"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let drawn = |name: &str| {
+        let svg = fs::read_to_string(folder.path().join(format!("figures/{name}.svg"))).unwrap();
+        texts(&svg).join(" ").split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    for (name, words) in [
+        ("figure-1-velocities", "both bodies"),
+        ("figure-1-velocities", "slip velocity of the bar relative to the disk"),
+        ("figure-1-velocities", "Slip velocity of the bar"),
+        ("figure-1-velocities", "at two instants"),
+        ("figure-2-stick-slip", "on the bar at two instants"),
+        ("space-time", "Nodes of the bar"),
+    ] {
+        assert!(drawn(name).contains(words), "{name}: {words}: {}", drawn(name));
+    }
+}

@@ -106,32 +106,40 @@ fn the_page_of_a_run_holds_case_numbers_verdicts_and_figures() {
 #[test]
 fn the_commands_with_which_a_page_says_to_reproduce_its_run_work_as_printed() {
     let place = tempfile::tempdir().unwrap();
-    let program = |words: &[&str], folder: &std::path::Path| {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
-        let output = command.args(words).current_dir(folder).output().unwrap();
-        assert!(matches!(output.status.code(), Some(0 | 1)), "{words:?}: {output:?}");
+    let in_place = |command: &mut Command| {
+        let output = command.current_dir(place.path()).output().unwrap();
+        assert!(matches!(output.status.code(), Some(0 | 1)), "{command:?}: {output:?}");
     };
-    let case = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml");
-    let short =
-        ["--set", "time.roll=0.0005", "--set", "drive.ramp=1e-6", "--set", "title='a \"b\"'"];
-    program(&[&["run", case, "--out", "a run"][..], &short].concat(), place.path());
-    let run = place.path().join("a run");
-    program(&["report", "."], &run);
-    let page = fs::read_to_string(run.join("report.html")).unwrap();
+    let program = std::path::Path::new(env!("CARGO_BIN_EXE_creepage"));
+    // the case reads a table that is named from its own folder
+    let small = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/small.toml"));
+    fs::create_dir(place.path().join("cases")).unwrap();
+    fs::write(place.path().join("cases/small.toml"), small.unwrap()).unwrap();
+    fs::write(place.path().join("cases/mu.csv"), "0,0.5\n1,0.4\n").unwrap();
+    fs::write(
+        place.path().join("cases/x.toml"),
+        "extends = \"small.toml\"\ntitle = 'a \"b\"'\n[friction]\nlaw = \"table\"\ntable = \"mu.csv\"\n",
+    )
+    .unwrap();
+    let short = ["--set", "time.roll=0.0005", "--set", "drive.ramp=1e-6"];
+    in_place(
+        Command::new(program).args(["run", "cases/x.toml", "--out", "runs/a run"]).args(short),
+    );
+    in_place(Command::new(program).args(["report", "runs/a run"]));
+    let page = fs::read_to_string(place.path().join("runs/a run/report.html")).unwrap();
     let commands = page.split("How to reproduce").nth(2).unwrap();
     let commands = commands.split_once("<pre>").unwrap().1.split_once("</pre>").unwrap().0;
     assert_eq!(commands.lines().count(), 4, "{commands}");
+    let programs = std::env::join_paths([program.parent().unwrap(), "/usr/bin".as_ref()]).unwrap();
     for line in commands.lines() {
-        let words: Vec<&str> = line.split(' ').collect();
-        assert_eq!(words[0], "creepage");
-        program(&words[1..], &run);
+        in_place(Command::new("sh").args(["-c", line]).env("PATH", &programs));
     }
-    assert!(run.join("again/report.html").exists());
-    let of = |folder: &std::path::Path| {
-        let text = fs::read(folder.join("summary.json")).unwrap();
+    assert!(place.path().join("runs/a run-again/report.html").exists());
+    let of = |folder: &str| {
+        let text = fs::read(place.path().join(folder).join("summary.json")).unwrap();
         serde_json::from_slice::<serde_json::Value>(&text).unwrap()["contact"].clone()
     };
-    assert_eq!(of(&run), of(&run.join("again")));
+    assert_eq!(of("runs/a run"), of("runs/a run-again"));
 }
 
 #[test]
@@ -158,7 +166,7 @@ fn a_page_about_the_records_of_another_program_has_no_commands_to_make_them() {
     assert_eq!(creepage(&["report", folder.path().to_str().unwrap()]).status.code(), Some(0));
     let page = fs::read_to_string(folder.path().join("report.html")).unwrap();
     assert!(page.contains("of another program, which alone can make them again"));
-    assert!(!page.contains("creepage run case.toml"));
+    assert!(!page.contains("creepage run "));
 }
 
 #[test]

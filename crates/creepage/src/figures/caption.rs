@@ -4,6 +4,15 @@ use super::scene::Scene;
 use crate::check::basis::number_at;
 use crate::check::law::Law;
 
+/// How many instants a figure shows.
+pub(super) fn instants(scene: &Scene<'_>) -> &'static str {
+    match scene.instants.len() {
+        1 => "one instant",
+        2 => "two instants",
+        _ => "three instants",
+    }
+}
+
 /// The caption of a figure: the key numbers of the case, then `text`.
 pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
     let basis = scene.basis;

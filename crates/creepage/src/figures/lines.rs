@@ -1,9 +1,10 @@
-//! Lines along y = 0 at three instants.
+//! Lines along y = 0 at up to three instants.
 
-use super::caption::caption;
+use super::caption::{caption, instants};
 use super::half_space;
 use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::chart::{Axis, Draw, Figure, Panel, Series, colour};
+use crate::check::surface::body_name;
 
 /// A quantity of a record at a node, drawn against x.
 type Quantity<'a> = &'a dyn Fn(&Instant, usize) -> f64;
@@ -27,42 +28,52 @@ fn panel(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
 }
 
 /// Lines of a quantity, one for each instant.
-fn at_instants(scene: &Scene<'_>, body: u8, label: bool, quantity: Quantity<'_>) -> Vec<Series> {
+fn at_instants(scene: &Scene<'_>, body: u8, quantity: Quantity<'_>) -> Vec<Series> {
     let instants = scene.instants.iter().zip(INSTANTS);
     instants
         .map(|(instant, colour)| Series {
-            label: if label { time_label(instant) } else { String::new() },
+            label: time_label(instant),
             points: along(scene, instant, body, quantity),
             draw: Draw::Line(colour),
         })
         .collect()
 }
 
-/// Figure 1: tangential velocities of surface nodes on both bodies along y = 0, and their
-/// difference, the slip velocity.
+/// Figure 1: velocities of surface nodes along y = 0 on each body that has them, and the slip velocity of the body that
+/// all figures draw, with the sign that it has in the records.
 pub(super) fn velocities(scene: &Scene<'_>) -> Figure {
     let bodies = scene.history.surface.bodies();
     let velocity = |instant: &Instant, row: usize| {
         instant.frame.motion.as_ref().map_or(f64::NAN, |[_, velocity]| velocity[row][0])
     };
     let slip = |instant: &Instant, row: usize| instant.frame.slip_velocity[row][0];
+    let [drawn, other] = [scene.body, u8::from(scene.body == 0)].map(body_name);
     let mut panels = Vec::new();
     if scene.history.has.motion {
         for &body in bodies.iter().rev() {
-            let title = format!("Surface nodes of the {}", crate::check::surface::body_name(body));
-            let series = at_instants(scene, body, true, &velocity);
+            let title = format!("Surface nodes of the {}", body_name(body));
+            let series = at_instants(scene, body, &velocity);
             panels.push(panel(&title, x_axis(scene), Axis::linear("v_{x} (m/s)"), series));
         }
     }
-    let first = bodies.first().copied().unwrap_or(0);
-    let series = at_instants(scene, first, true, &slip);
-    let title = if bodies.len() == 2 { "Difference: slip velocity" } else { "Slip velocity" };
-    panels.push(panel(title, x_axis(scene), Axis::linear("s_{x} (m/s)"), series));
-    let text = "Velocities along x of the surface nodes on y = 0 of both bodies and the slip \
-                velocity of the disk relative to the bar, at three instants; rolling is to the \
-                right (the papers' Figure 1).";
+    let title = format!("Slip velocity of the {drawn}");
+    let series = at_instants(scene, scene.body, &slip);
+    panels.push(panel(&title, x_axis(scene), Axis::linear("s_{x} (m/s)"), series));
+    let surfaces = if bodies.len() == 2 { "both bodies".into() } else { format!("the {drawn}") };
+    let velocities = if scene.history.has.motion {
+        format!(
+            "Velocities along x of the surface nodes on y = 0 of {surfaces}, and the slip velocity of the {drawn}"
+        )
+    } else {
+        format!("Slip velocity along x of the surface nodes on y = 0 of the {drawn}")
+    };
+    let text = format!(
+        "{velocities} relative to the {other}, at {}; rolling is to the right (the papers' Figure 1, where s is that of \
+         the wheel relative to the rail).",
+        instants(scene)
+    );
     let columns = panels.len();
-    Figure { size: [360 * columns as u32, 400], columns, panels, caption: caption(scene, text) }
+    Figure { size: [360 * columns as u32, 400], columns, panels, caption: caption(scene, &text) }
 }
 
 /// Figure 3: pressure and shear along y = 0 with the bounds of friction.
@@ -125,11 +136,16 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
     }
     let y = Axis::linear("traction (MPa)");
     let panels = vec![panel("", x_axis(scene), y, series)];
-    let mut text = format!(
-        "Pressure along y = 0 at the last of {n} instants and shear at all of them (the papers' Figure 3); the bound \
-         of friction (dashed) is that of the last.",
-        n = scene.instants.len()
-    );
+    let mut text = match scene.instants.len() {
+        1 => {
+            "Pressure, shear and the bound of friction (dashed) along y = 0 (the papers' Figure 3)."
+                .to_owned()
+        }
+        n => format!(
+            "Pressure along y = 0 at the last of {n} instants and shear at all of them (the papers' Figure 3); the bound \
+             of friction (dashed) is that of the last."
+        ),
+    };
     if has_reference {
         text.push_str(
             " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \

@@ -1,9 +1,10 @@
 //! Maps of stick and slip over the patch, and of slip along y = 0 over time.
 
-use super::caption::caption;
+use super::caption::{caption, instants};
 use super::scene::{Instant, Scene, time_label};
 use crate::chart::{Axis, Cell, Figure, Fill, Key, Panel, Scale, colour};
 use crate::check::PostError;
+use crate::check::surface::body_name;
 
 /// The data of all records of the window that figures show: the centre line over time, and the points
 /// (|s| (m/s), p_f/p_n) of nodes in contact.
@@ -109,7 +110,7 @@ pub(super) fn speeds(values: impl Iterator<Item = f64>) -> Key {
     Key::Values { label: "|s| (m/s)".into(), range, scale: Scale::Log }
 }
 
-/// Figure 2: stick-slip maps at three instants, and below them the slip speed.
+/// Figure 2: stick-slip maps at up to three instants, and below them the slip speed.
 pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
     let surface = &scene.history.surface;
     let rows_of = |instant: &Instant| -> Vec<usize> {
@@ -165,13 +166,21 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
     }
     let columns = scene.instants.len();
     let rows = panels.len().div_ceil(columns.max(1)) as u32;
-    let text = "What the algorithm lets stick and slip at three instants, and the slip speed of \
-                the same nodes; rolling is to the right (the papers' Figure 2).";
+    let what = if scene.history.has.state {
+        "What the algorithm lets stick and slip, and the slip speed of the same nodes,"
+    } else {
+        "Slip speed"
+    };
+    let text = format!(
+        "{what} on the {} at {}; rolling is to the right (the papers' Figure 2).",
+        body_name(scene.body),
+        instants(scene)
+    );
     Figure {
         size: [360 * columns as u32, 300 * rows + 50],
         columns,
         panels,
-        caption: caption(scene, text),
+        caption: caption(scene, &text),
     }
 }
 
@@ -204,12 +213,17 @@ pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
         panels.push(panel(&states(), &|sample| state_colour(sample.state)));
     }
     panels.push(panel(&ratio_key, &|sample| ratio_key.colour(sample.ratio)));
-    let text = "Nodes on y = 0 over time: slip speed, what the algorithm lets stick and slip, and \
-                shear over pressure. Rolling is upwards: material enters at the top.";
+    let states =
+        if scene.history.has.state { ", what the algorithm lets stick and slip," } else { "" };
+    let text = format!(
+        "Nodes of the {} on y = 0 over time: slip speed{states} and shear over pressure. Rolling is upwards: material \
+         enters at the top.",
+        body_name(scene.body)
+    );
     Figure {
         size: [820, 290 * panels.len() as u32 + 50],
         columns: 1,
         panels,
-        caption: caption(scene, text),
+        caption: caption(scene, &text),
     }
 }

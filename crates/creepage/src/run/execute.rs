@@ -2,6 +2,7 @@
 
 mod begin;
 mod half_space;
+mod observer;
 mod opening;
 mod rolling;
 
@@ -20,6 +21,7 @@ use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::options::RunOptions;
 use crate::run::postmortem;
+use crate::run::progress_lines;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::run::resume::ResumePoint;
 use crate::run::summary::{Ending, summary};
@@ -92,6 +94,7 @@ fn run_in_pool(
         Opening::Complete(summary) => return Ok(complete(&options.folder(case), *summary)),
         Opening::Run(opened) => *opened,
     };
+    let observe = &mut opened.log.progress(progress_lines::INTERVAL)?.beside(observe);
     observe(&stage(case, Stage::Mesh));
     let basis = basis(case, options, opened.point.as_ref());
     let (start, files, resumed) =

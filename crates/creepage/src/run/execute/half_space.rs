@@ -3,6 +3,7 @@
 mod ending;
 mod recorder;
 
+use super::observer::Observer;
 use super::opening::{OpenRun, Opening, open};
 use super::{complete, kinds, stage};
 use crate::case::hertz::hertz;
@@ -12,6 +13,7 @@ use crate::run::error::RunError;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::options::RunOptions;
+use crate::run::progress_lines;
 use crate::run::record::RecordBasis;
 use crate::run::resume::ResumePoint;
 use crate::run::text_file::remove;
@@ -26,9 +28,6 @@ use output::{NotWritten, Provenance};
 use recorder::{HalfSpaceRecorder, HalfSpaceRecorderState};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant, SystemTime};
-
-/// Steps between two calls of the observer.
-const OBSERVED: u64 = 64;
 
 /// A step whose friction converged no better than this (of the largest trial velocity, which is some hundred times the
 /// largest slip velocity) ends the run.
@@ -54,6 +53,7 @@ pub(super) fn run(
         Opening::Run(opened) => *opened,
     };
     let OpenRun { held, mut log, mut model, point } = opened;
+    let observe = &mut log.progress(progress_lines::INTERVAL)?.beside(observe);
     let point = point.map(|point| point.tell(&options.folder(case), &mut log)).transpose()?;
     if point.is_none() {
         model.warnings.iter().try_for_each(|line| log.warn(line))?;
@@ -157,6 +157,7 @@ impl UnderWay<'_> {
         let first = self.model.rolling.steps() as u64;
         let dt = self.model.rolling.step_length();
         let mut clock = Clock::new(&self.case.checkpoint, dt, first);
+        let mut observer = Observer::new(observe);
         for n in first..self.model.steps {
             let stops = stop.load(Ordering::Relaxed);
             if stops || clock.is_due(n) {
@@ -176,9 +177,7 @@ impl UnderWay<'_> {
             }
             add_work(&mut self.energies, &sums, dt * self.model.width);
             self.recorder.after_step(self.case, &self.model, &sums, &self.energies)?;
-            if n.is_multiple_of(OBSERVED) {
-                observe(&self.progress(n - first, &sums));
-            }
+            observer.after_step(n, || self.progress(n - first, &sums));
         }
         Ok((Status::Completed, None))
     }

@@ -1,5 +1,6 @@
 //! The time loop of a run: steps, output, guards, checkpoints.
 
+use super::observer::Observer;
 use crate::case::schema::Case;
 use crate::run::checkpoint::{Clock, State};
 use crate::run::error::RunError;
@@ -14,9 +15,6 @@ use dynamics::{Diagnosis, Energies, Moved, Simulation, StepReport};
 use output::summary::Status;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-
-/// Steps between two calls of the observer.
-const OBSERVED: u64 = 64;
 
 /// Steps between two readings of the energies, at most: `output.history_interval` may be larger.
 const READING: u64 = 100;
@@ -99,6 +97,7 @@ impl<'a> TimeLoop<'a> {
     ) -> Result<Stopped, RunError> {
         let (first, steps) = (self.simulation.steps() as u64, self.facts.steps);
         let mut clock = Clock::new(&self.case.checkpoint, self.simulation.dt(), first);
+        let mut observer = Observer::new(observe);
         for n in first..steps {
             let stops = stop.load(Ordering::Relaxed);
             // a state that the guards are about to stop must not replace a good checkpoint
@@ -127,9 +126,7 @@ impl<'a> TimeLoop<'a> {
             }
             self.energies = report.energies.unwrap_or(self.energies);
             self.recorder.after_step(&self.simulation, &report)?;
-            if n.is_multiple_of(OBSERVED) {
-                observe(&self.progress(n - first, &report));
-            }
+            observer.after_step(n, || self.progress(n - first, &report));
         }
         Ok(Stopped { status: Status::Completed, diagnosis: None, guard: None })
     }
