@@ -35,8 +35,8 @@ fn fields_150k_nodes(bencher: divan::Bencher) {
     let mesh = mesh::block(n, [0.099, 0.049, 0.029]);
     let (nodes, cells) = (mesh.nodes.len(), mesh.hexes.len());
     let folder = tempfile::tempdir().expect("a folder");
-    let grid =
-        GridSpec { points: &mesh.nodes, cells: Cells::Hexahedra(&mesh.hexes), constant: &[] };
+    let points: Vec<[f64; 3]> = mesh.nodes.iter().map(|point| (*point).into()).collect();
+    let grid = GridSpec { points: &points, cells: Cells::Hexahedra(&mesh.hexes), constant: &[] };
     let specs = [
         FieldSpec::vector("displacement", "m", ""),
         FieldSpec::vector("velocity", "m/s", ""),
