@@ -34,16 +34,27 @@ pub struct Named {
     pub figure: Figure,
 }
 
+/// Which instants and probes are drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Times of lines and maps (s); the last of the window where there are none.
+    pub instants: Vec<f64>,
+    /// Numbers of the probes; the first ones where there are none.
+    pub probes: Vec<usize>,
+}
+
 /// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
-/// at two before it, 5.7 us apart (as in the papers) where records allow. `basis` gets scales found in the
+/// at two before it, 5.7 us apart (as in the papers) where records allow, or at the instants of `choice`. `basis` gets scales found in the
 /// records; `window` as in [`Criteria`](crate::check::Criteria).
 ///
 /// # Errors
-/// Files that cannot be read or lack data or scales that the figures need; a window without a record.
+/// Files that cannot be read or lack data or scales that the figures need; a window without a record; an instant or a probe
+/// that the run does not have.
 pub fn figures(
     paths: &RunPaths,
     basis: &mut Basis,
     window: Option<Span>,
+    choice: &Choice,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
     let window = Window::resolve(window, basis, &history)?;
@@ -57,14 +68,25 @@ pub fn figures(
         traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
     };
     let window = window.ends(&history.times);
-    let instants = Vec::new();
-    let mut scene =
-        Scene { history: &history, basis, scales, body, records, window, means, instants };
-    for index in scene.instant_indices() {
+    let (instants, halves) = (Vec::new(), scene::halves(&history.surface));
+    let mut scene = Scene {
+        history: &history,
+        basis,
+        scales,
+        body,
+        records,
+        window,
+        means,
+        instants,
+        halves,
+        line_reach: 0.0,
+    };
+    for index in scene.instant_indices(&choice.instants)? {
         let frame = history.record(index)?;
         let centre = scene.centre(&frame);
         scene.instants.push(Instant { frame, centre });
     }
+    scene.line_reach = scene.reach_of_lines();
     let band = maps::Band::gather(&scene)?;
     let mut all = vec![
         Named {
@@ -99,14 +121,17 @@ pub fn figures(
         },
     ];
     if let Some(figure) = patch::maps(&scene) {
-        let about = "maps of the patch at the last instant: tractions, slip velocity, stick and slip, friction";
+        let about =
+            "maps of the patch at an instant: tractions, slip velocity, stick and slip, friction";
         all.push(Named { stem: "contact-maps", about, figure });
     }
     if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
         let about = "forces, creepage, patch and energies over time";
         all.push(Named { stem: "histories", about, figure });
     }
-    if let Some(figure) = spectrum::spectrum(&scene, &paths.folder.join(file::PROBES))? {
+    if let Some(figure) =
+        spectrum::spectrum(&scene, &paths.folder.join(file::PROBES), &choice.probes)?
+    {
         let about = "spectrum of the slip velocity at the probe nodes";
         all.push(Named { stem: "spectrum", about, figure });
     }

@@ -32,7 +32,10 @@ h1{font-size:1.5rem}h2{font-size:1.2rem;margin-top:2.2rem;border-bottom:1px soli
 table{border-collapse:collapse;margin:.8rem 0;font-size:.85rem}
 td,th{padding:.25rem .7rem;border-bottom:1px solid #ddd;text-align:left;vertical-align:top}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
-.wide{overflow-x:auto}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
+.wide{overflow-x:auto;background:linear-gradient(to right,#fff 2rem,#fff0) 0/4rem 100%,
+linear-gradient(to left,#fff 2rem,#fff0) 100%/4rem 100%,linear-gradient(to right,#0006,#0000) 0/1rem 100%,
+linear-gradient(to left,#0006,#0000) 100%/1rem 100%;background-repeat:no-repeat;
+background-attachment:local,local,scroll,scroll}.wide td:last-child:not(.n){min-width:14rem}nav a{margin-right:1rem}.csv{font-size:.8rem}
 .pass{color:#00573d;font-weight:bold}.fail{color:#a33c00;font-weight:bold}
 .springs{color:#6b5600;font-weight:bold}
 .note{color:#444}figure{margin:1.2rem 0}svg{width:100%;height:auto;border:1px solid #ddd}
@@ -40,10 +43,11 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 font-size:.8rem;max-width:90vw}#values i{display:inline-block;width:1em;height:.6em;margin-right:.5em}
 #rule{stroke:#999;stroke-width:3;pointer-events:none}
 pre{background:#f4f4f4;padding:.8rem;overflow:auto;font-size:.8rem}
-@media(max-width:600px){figure{overflow-x:auto}figure svg{min-width:44rem}
-.measures table,.measures tbody{display:block}.measures tr{display:grid;grid-template-columns:1fr 5rem 4rem 2.7rem}
-.measures td,.measures th{padding:.2rem .3rem}.measures td:last-child{grid-column:1/-1}
-.measures th:last-child{display:none}.measures td:not(:last-child){border-bottom:none}}
+@media(max-width:600px){figure{overflow-x:auto}figure svg{min-width:44rem}td,th{padding:.2rem .3rem}
+figure:not(.scene)::before{content:\"\u{2194} the figure goes on to the right\";position:sticky;left:0;font-size:.8rem}
+.lines table,.lines tbody{display:block}.lines tr{display:grid;grid-template-columns:1fr 5rem 4rem 2.7rem}
+.verdicts tr{grid-template-columns:1fr 3rem 8rem}.lines td:last-child{grid-column:1/-1}
+.lines th:last-child{display:none}.lines td:not(:last-child){border-bottom:none}}
 @media print{body{max-width:none}figure{break-inside:avoid}}";
 
 /// Offers each table as CSV: a link that the browser makes of the table, without a request.
@@ -176,7 +180,7 @@ fn verdicts(out: &mut String, checked: &CheckResult) {
         "<h2 id=\"conditions\">Contact conditions</h2>\n\
          <p>The limits are those of {} methods. The slip velocity paired with a traction is {}. \
          Definitions and scales: docs/checks.md of Creepage.</p>\n\
-         <div class=\"wide measures\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
+         <div class=\"wide lines\"><table>\n<tr><th>measure</th><th class=\"n\">value</th><th class=\"n\">limit</th>\
          <th></th><th>what it says</th></tr>\n",
         checked.limits_for,
         checked.pairing.reported.slip()

@@ -84,6 +84,40 @@ fn every_line_of_an_instant_names_it_and_a_caption_names_colours_that_are_there(
 }
 
 #[test]
+fn instants_width_and_captions_of_figures_can_be_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    write_with(folder.path(), FALLING, "penalty", 30, 1e-6, Leave::default(), |x, step| {
+        perfect(FALLING, x, step)
+    });
+    let plot = |options: &[&str]| {
+        Command::new(env!("CARGO_BIN_EXE_creepage"))
+            .args(["plot", folder.path().to_str().unwrap(), "--format", "svg"])
+            .args(options)
+            .output()
+            .unwrap()
+    };
+    let options = ["--at", "4e-6,9e-6", "--width", "90", "--font-size", "8", "--no-caption"];
+    let output = plot(&options);
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    let svg = fs::read_to_string(folder.path().join("figures/figure-3-tractions.svg")).unwrap();
+    assert!(svg.starts_with("<svg width=\"90.00mm\""), "{}", &svg[..90]);
+    let texts = texts(&svg);
+    let of_time: Vec<_> = texts.iter().filter(|text| text.contains("t = 0.")).collect();
+    assert_eq!(of_time.len(), 3, "{texts:?}");
+    assert!(of_time.iter().all(|text| text.contains("0.0040") || text.contains("0.0090")));
+    assert!(!svg.contains("planted:"));
+    for (refused, why) in [
+        (["--at", "1"], "the records are from 0 to"),
+        (["--width", "3"], "from 30 to 1000"),
+        (["--font-size", "90"], "from 4 to 24"),
+    ] {
+        let output = plot(&refused);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&output.stderr).contains(why), "{output:?}");
+    }
+}
+
+#[test]
 fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
     let folder = tempfile::tempdir().unwrap();
     let bare = Leave { gap: true, motion: true, mu: false };

@@ -1,5 +1,6 @@
 //! Axes: range, scale and ticks.
 
+use crate::chart::label::minus;
 use std::ops::Range;
 
 /// An axis with its label, which names the unit.
@@ -150,11 +151,11 @@ impl Ticked {
             return logarithmic(place, self.ticks.iter().all(|tick| is_whole(*tick)));
         }
         if self.decimals > 4 || place.abs() >= 1e5 {
-            return format!("{place:.1e}");
+            return minus(&format!("{place:.1e}"));
         }
         // the tick at zero may carry a sign from rounding
         let place = if place.abs() < 1e-12 { 0.0 } else { place };
-        format!("{place:.*}", self.decimals).replace('-', "\u{2212}")
+        minus(&format!("{place:.*}", self.decimals))
     }
 }
 

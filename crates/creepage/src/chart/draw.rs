@@ -42,6 +42,27 @@ pub(crate) fn figure<DB: DrawingBackend>(
     Ok(())
 }
 
+/// Above a caption and below it.
+const AROUND_CAPTION: [f64; 2] = [6.0, 4.0];
+
+/// Height of a figure's caption (points of 1/96 inch); why it cannot be measured.
+pub(crate) fn caption_height(figure: &Figure) -> Result<f64, String> {
+    const UNIT: u32 = 4;
+    let (mut unseen, size) = (String::new(), figure.size.map(|points| points * UNIT));
+    let area = SVGBackend::with_string(&mut unseen, size.into()).into_drawing_area();
+    let pen = Pen { area: &area, unit: f64::from(UNIT), medium: Medium::Svg };
+    let lines = caption_lines(figure, &pen).map_err(|error| error.to_string())?.len();
+    let around = AROUND_CAPTION.iter().sum::<f64>();
+    Ok(if lines == 0 { 0.0 } else { lines as f64 * LINE + around })
+}
+
+fn caption_lines<DB: DrawingBackend>(
+    figure: &Figure,
+    pen: &Pen<'_, DB>,
+) -> Result<Vec<String>, Failure<DB>> {
+    pen.lines(&figure.caption, pen.area.dim_in_pixel().0 as i32 - pen.px(2.0 * MARGIN))
+}
+
 /// Draws the caption at the bottom of the area; returns what is left above it.
 fn caption<DB: DrawingBackend>(
     figure: &Figure,
@@ -50,14 +71,14 @@ fn caption<DB: DrawingBackend>(
     if figure.caption.is_empty() {
         return Ok(pen.area.clone());
     }
-    let (width, height) = pen.area.dim_in_pixel();
-    let lines = pen.lines(&figure.caption, width as i32 - pen.px(2.0 * MARGIN))?;
-    let top = height as i32 - pen.px(LINE) * lines.len() as i32 - pen.px(4.0);
+    let lines = caption_lines(figure, pen)?;
+    let [above, below] = AROUND_CAPTION.map(|points| pen.px(points));
+    let top = pen.area.dim_in_pixel().1 as i32 - pen.px(LINE) * lines.len() as i32 - below;
     for (i, line) in lines.iter().enumerate() {
         let middle = top + pen.px((i as f64 + 0.5) * LINE);
         pen.write(line, TEXT, (pen.px(MARGIN), middle), HPos::Left)?;
     }
-    Ok(pen.area.split_vertically(top - pen.px(6.0)).0)
+    Ok(pen.area.split_vertically(top - above).0)
 }
 
 /// Width of what stands to the left of a plot: the title of its axis and the labels of its ticks (pixels).

@@ -1,5 +1,13 @@
 //! Labels with subscripts, which are written as in TeX: `p_{n}`.
 
+/// A space at which no line of a caption or of a legend ends.
+pub const NO_BREAK: &str = "\u{a0}";
+
+/// A number with the sign of a minus.
+pub fn minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
 /// Where a subscript begins and ends in a label.
 const BEGINS: &str = "_{";
 const ENDS: char = '}';

@@ -1,6 +1,7 @@
 //! Sizes of the parts of a figure, and text on it.
 
-use crate::chart::{font, label};
+use crate::chart::font;
+use crate::chart::label::{self, NO_BREAK};
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
@@ -148,14 +149,15 @@ impl<'a, DB: DrawingBackend> Pen<'a, DB> {
         self.area.draw(&Rectangle::new([low, high], rgb(colour).filled()))
     }
 
-    /// A text in lines of at most `room` pixels, as far as its words allow.
+    /// A text in lines of at most `room` pixels, as far as its words allow; [`NO_BREAK`] becomes a space.
     pub fn lines(&self, text: &str, room: i32) -> Result<Vec<String>, Failure<DB>> {
         let mut lines: Vec<String> = Vec::new();
-        for word in text.split_whitespace() {
+        for word in text.split_ascii_whitespace() {
+            let word = word.replace(NO_BREAK, " ");
             let longer = lines.last().map(|line| format!("{line} {word}"));
             match (longer, lines.last_mut()) {
                 (Some(longer), Some(last)) if self.width(&longer, TEXT)? <= room => *last = longer,
-                _ => lines.push(word.into()),
+                _ => lines.push(word),
             }
         }
         Ok(lines)

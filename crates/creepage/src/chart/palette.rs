@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 /// A PNG with the mark of this program and at most `most` colours, of which there can be 256: the fewer, the smaller
 /// the file.
 ///
-/// Those of `exact` that occur are kept exactly, so that lines have the colours that the legend says. Of the others the
+/// `per_metre` is the number of pixels in a metre of paper. Those of `exact` that occur are kept exactly, so that lines have the colours that the legend says. Of the others the
 /// palette holds those whose change would be seen most, and the rest, shades at the edges of lines and letters, become the
 /// nearest of them.
 ///
@@ -17,6 +17,7 @@ pub(crate) fn png(
     pixels: &Pixels,
     exact: &[[u8; 3]],
     most: usize,
+    per_metre: Option<u32>,
 ) -> Result<Vec<u8>, png::EncodingError> {
     let (palette, index) = palette(&pixels.rgb, exact, most);
     let half = palette.len() <= 16;
@@ -28,6 +29,11 @@ pub(crate) fn png(
     encoder.set_compression(png::Compression::Best);
     // neighbouring indices are no neighbouring colours: differences compress no better
     encoder.set_filter(png::FilterType::NoFilter);
+    encoder.set_pixel_dims(per_metre.map(|n| png::PixelDimensions {
+        xppu: n,
+        yppu: n,
+        unit: png::Unit::Meter,
+    }));
     let mark = String::from_utf8_lossy(PNG_MARK);
     if let Some((keyword, text)) = mark.split_once('\0') {
         encoder.add_text_chunk(keyword.into(), text.into())?;
@@ -133,7 +139,7 @@ mod tests {
             vec![0, 114, 178, 255, 255, 254, 255, 255, 254, 1, 2, 3, 0, 114, 178, 0, 114, 178];
         let few = Pixels { width: 3, height: 2, rgb };
         for most in [3, 16, 256] {
-            assert_eq!(decoded(&png(&few, &[], most).unwrap()), few.rgb);
+            assert_eq!(decoded(&png(&few, &[], most, None).unwrap()), few.rgb);
         }
     }
 
@@ -144,7 +150,7 @@ mod tests {
         let all = std::iter::repeat_n([213, 94, 0], 100).chain((0..10_000).map(shade));
         let rgb: Vec<u8> = all.chain([[253, 231, 37]]).flatten().collect();
         let many = Pixels { width: 10_101, height: 1, rgb };
-        let found = decoded(&png(&many, &[], 256).unwrap());
+        let found = decoded(&png(&many, &[], 256, None).unwrap());
         assert_eq!(found[..300], many.rgb[..300]);
         assert_eq!(found[30_300..], many.rgb[30_300..]);
         let pairs = found.as_chunks::<3>().0.iter().zip(many.rgb.as_chunks::<3>().0);
@@ -157,8 +163,9 @@ mod tests {
         let greys = (0..=255).flat_map(|grey| std::iter::repeat_n([grey; 3], 10_000));
         let rgb: Vec<u8> = greys.chain([line]).flatten().collect();
         let pixels = Pixels { width: 2_560_001, height: 1, rgb };
-        let last =
-            |exact: &[[u8; 3]]| decoded(&png(&pixels, exact, 16).unwrap()).split_off(7_680_000);
+        let last = |exact: &[[u8; 3]]| {
+            decoded(&png(&pixels, exact, 16, None).unwrap()).split_off(7_680_000)
+        };
         assert_eq!(last(&[line]), line);
         assert_ne!(last(&[]), line, "the test shows nothing");
     }
@@ -169,7 +176,7 @@ mod tests {
         let greys = [[60; 3], [120; 3], [180; 3]];
         let rgb: Vec<u8> = blues.chain(greys).flatten().collect();
         let pixels = Pixels { width: 2_000_003, height: 1, rgb };
-        let found = decoded(&png(&pixels, &[], 16).unwrap());
+        let found = decoded(&png(&pixels, &[], 16, None).unwrap());
         assert_eq!(found[6_000_000..], *greys.as_flattened());
     }
 }

@@ -21,15 +21,15 @@ const FINE: u32 = 3;
 const MOST: u64 = 100_000_000;
 
 /// The figure with `unit` pixels per point; why it cannot be drawn.
-pub(crate) fn pixels(figure: &Figure, unit: u32) -> Result<Pixels, String> {
-    let [width, height] = figure.size.map(|points| points * unit);
+pub(crate) fn pixels(figure: &Figure, unit: f64) -> Result<Pixels, String> {
+    let [width, height] = figure.size.map(|points| (f64::from(points) * unit).round() as u32);
     let count = |fine: u32| u64::from(width * fine) * u64::from(height * fine);
     let fine = (1..=FINE).rev().find(|fine| count(*fine) <= MOST).unwrap_or(1);
     let mut rgb = vec![255; 3 * count(fine) as usize];
     {
         let size = (width * fine, height * fine);
         let area = BitMapBackend::with_buffer(&mut rgb, size).into_drawing_area();
-        let drawn = draw::figure(figure, &area, f64::from(unit * fine), Medium::Bitmap(fine));
+        let drawn = draw::figure(figure, &area, unit * f64::from(fine), Medium::Bitmap(fine));
         drawn.and_then(|()| area.present()).map_err(|error| error.to_string())?;
     }
     Ok(Pixels { width, height, rgb: means(&rgb, width as usize, fine as usize) })

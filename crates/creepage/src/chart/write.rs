@@ -1,7 +1,9 @@
 //! Writing a figure as SVG and PNG.
 
 use crate::chart::layout::Medium;
-use crate::chart::{Figure, Fill, Key, Panel, colour, draw, font, group, label, palette, raster};
+use crate::chart::{
+    Figure, Fill, Key, Panel, Paper, colour, draw, font, group, label, palette, raster,
+};
 use output::files::made::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
 use std::collections::BTreeSet;
@@ -38,7 +40,6 @@ const NO_INPUT: &[PathBuf] = &[];
 
 /// Pixels per point: fine enough that rounding to pixels does not show in print.
 const SVG_UNIT: u32 = 4;
-const PNG_UNIT: u32 = 2;
 
 /// Panels of a picture that is looked at as a whole: there the shades of edges matter less than the size of the file.
 const MANY_PANELS: usize = 20;
@@ -48,7 +49,7 @@ const MANY_PANELS: usize = 20;
 pub enum Format {
     /// Lines and text, for print and the web.
     Svg,
-    /// Pixels, two per point.
+    /// Pixels.
     Png,
 }
 
@@ -86,7 +87,7 @@ impl Figure {
     /// # Errors
     /// As [`write_as`](Self::write_as).
     pub fn write(&self, folder: &Path, stem: &str) -> Result<[PathBuf; 2], FigureError> {
-        let write = |format| self.write_as(folder, stem, format);
+        let write = |format| self.write_as(folder, stem, format, &Paper::SCREEN);
         Ok([write(Format::Svg)?, write(Format::Png)?])
     }
 
@@ -100,22 +101,20 @@ impl Figure {
         folder: &Path,
         stem: &str,
         format: Format,
+        paper: &Paper,
     ) -> Result<PathBuf, FigureError> {
         let path = folder.join(format!("{stem}.{}", format.extension()));
         let failed = |path: &Path, cause| FigureError::Write { path: path.into(), cause };
         std::fs::create_dir_all(folder).map_err(|cause| failed(folder, cause))?;
         made::check(&path, format.made(), NO_INPUT)?;
-        match format {
-            Format::Svg => {
-                std::fs::write(&path, self.svg(&path)?).map_err(|cause| failed(&path, cause))?;
-            }
-            Format::Png => {
-                let undrawn = |cause: String| FigureError::Draw { path: path.clone(), cause };
-                register(&path)?;
-                let image = self.png().map_err(undrawn)?;
-                std::fs::write(&path, image).map_err(|cause| failed(&path, cause))?;
-            }
-        }
+        register(&path)?;
+        let undrawn = |cause: String| FigureError::Draw { path: path.clone(), cause };
+        let figure = paper.lay_out(self).map_err(undrawn)?;
+        let file = match format {
+            Format::Svg => figure.svg(&path, paper)?.into_bytes(),
+            Format::Png => figure.png(paper).map_err(undrawn)?,
+        };
+        std::fs::write(&path, file).map_err(|cause| failed(&path, cause))?;
         Ok(path)
     }
 
@@ -134,11 +133,12 @@ impl Figure {
     }
 
     /// The figure as the text of an SVG file that carries its font.
-    fn svg(&self, path: &Path) -> Result<String, FigureError> {
+    fn svg(&self, path: &Path, paper: &Paper) -> Result<String, FigureError> {
         let (text, width, height) = self.plain_svg(path)?;
-        // the size of the page in points, and the font
+        // the size of the page in points of 1/96 inch, and the font
         let page = format!("width=\"{width}\" height=\"{height}\"");
-        let points = format!("width=\"{}\" height=\"{}\"", self.size[0], self.size[1]);
+        let [across, up] = paper.size(self);
+        let points = format!("width=\"{across}\" height=\"{up}\"");
         let text = text.replacen(&page, &points, 1);
         let head = text.find("<svg").and_then(|at| Some(at + text[at..].find('>')? + 1));
         let (head, rest) = text.split_at(head.unwrap_or(0));
@@ -163,8 +163,8 @@ impl Figure {
 
     /// The figure as a PNG file: maps in 256 colours, lines and letters in 16 or, where it names more than half of these, in
     /// twice as many as it names.
-    fn png(&self) -> Result<Vec<u8>, String> {
-        let pixels = raster::pixels(self, PNG_UNIT)?;
+    fn png(&self, paper: &Paper) -> Result<Vec<u8>, String> {
+        let pixels = raster::pixels(self, paper.pixels(self))?;
         let exact = self.named_colours();
         let map = |panel: &Panel| matches!(&panel.fill, Some(Fill { key: Key::Values { .. }, .. }));
         let most = match self.panels.len() {
@@ -172,7 +172,8 @@ impl Figure {
             MANY_PANELS.. => exact.len() + palette::GREYS,
             _ => (2 * exact.len()).max(16),
         };
-        palette::png(&pixels, &exact, most.min(256)).map_err(|error| error.to_string())
+        palette::png(&pixels, &exact, most.min(256), paper.per_metre())
+            .map_err(|error| error.to_string())
     }
 
     /// The colours of paper, letters, series, marks and classes.
@@ -204,7 +205,7 @@ fn register(path: &Path) -> Result<(), FigureError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Axis, Cell, Draw, Mark, Scale, Series};
+    use crate::chart::{Axis, Cell, Draw, Mark, NO_BREAK, Scale, Series};
 
     fn figure() -> Figure {
         let points = (0..100).map(|i| [f64::from(i), libm::sin(f64::from(i))]).collect();
@@ -241,7 +242,8 @@ mod tests {
         for (path, format) in paths.iter().zip([Format::Svg, Format::Png]) {
             for theirs in [&b"<svg><!-- mine --></svg>"[..], b"\x89PNG\r\n\x1a\nmine"] {
                 std::fs::write(path, theirs).unwrap();
-                let error = figure().write_as(folder.path(), "one", format).unwrap_err();
+                let error =
+                    figure().write_as(folder.path(), "one", format, &Paper::SCREEN).unwrap_err();
                 assert!(error.to_string().contains("not a figure that this program"), "{error}");
                 assert_eq!(std::fs::read(path).unwrap(), theirs);
             }
@@ -267,6 +269,49 @@ mod tests {
             figure.panels[0].fill = Some(Fill { cells: vec![], key: class });
             figure.svg_element().unwrap();
         }
+    }
+
+    #[test]
+    fn on_paper_a_figure_has_its_width_at_300_dpi_and_panels_below_one_another_where_there_is_no_room()
+     {
+        let folder = tempfile::tempdir().unwrap();
+        let mut figure = figure();
+        figure.panels.push(figure.panels[0].clone());
+        (figure.columns, figure.caption) = (2, "words that fill more than a line ".repeat(5));
+        let paper = Paper { width: Some(60.0), font_size: Some(11.0), caption: false };
+        let write = |format| figure.write_as(folder.path(), "one", format, &paper).unwrap();
+        let svg = std::fs::read_to_string(write(Format::Svg)).unwrap();
+        assert!(svg.starts_with("<svg width=\"60.00mm\""), "{}", &svg[..120]);
+        assert!(!svg.contains("words that"));
+        let numbers = |name: &str| {
+            let attribute = format!("{name}=\"");
+            let values = svg.split(&attribute).skip(1);
+            values.map(|text| text.split('"').next().unwrap().to_owned()).collect::<Vec<_>>()
+        };
+        let left: Vec<_> =
+            numbers("data-box").iter().map(|b| b.split(' ').next().unwrap().to_owned()).collect();
+        assert_eq!(left[0], left[1], "the panels stand beside each other");
+        // letters of 11 points, 1/72 inch each, where the figure is 60 mm wide
+        let across: f64 = numbers("viewBox")[0].split(' ').nth(2).unwrap().parse().unwrap();
+        let letters: Vec<f64> =
+            numbers("font-size").iter().filter_map(|size| size.parse().ok()).collect();
+        let least = letters.into_iter().fold(f64::INFINITY, f64::min) / across * 60.0 / 25.4 * 72.0;
+        assert!((least / 11.0 - 1.0).abs() < 0.02, "{least}");
+        let png = std::fs::read(write(Format::Png)).unwrap();
+        let wide = u32::from_be_bytes(png[16..20].try_into().unwrap());
+        assert_eq!(wide, 709); // 60 mm at 300 per inch
+        let at = png.windows(4).position(|kind| kind == b"pHYs").unwrap();
+        assert_eq!(u32::from_be_bytes(png[at + 4..at + 8].try_into().unwrap()), 11811);
+    }
+
+    #[test]
+    fn a_number_and_its_unit_stand_on_one_line_of_a_caption() {
+        let mut figure = figure();
+        figure.caption = format!("h{NO_BREAK}={NO_BREAK}2.00{NO_BREAK}mm, ").repeat(30);
+        let svg = figure.svg_element().unwrap();
+        let lines: Vec<_> = svg.lines().filter(|line| line.starts_with("h = ")).collect();
+        assert!(lines.len() > 3 && lines.iter().all(|line| line.ends_with("mm,")), "{lines:?}");
+        assert!(!svg.contains(NO_BREAK));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::chart::Format;
+use crate::chart::{Format, Paper};
 use crate::check::{Depth, PostError};
 use crate::compare::{Compared, ComparisonResult};
 use serde::Deserialize;
@@ -47,7 +47,8 @@ pub fn compare(options: &CompareOptions) -> Result<ComparisonResult, Error> {
     let mut result = found.result;
     if let Some(plot) = &options.plot {
         let (folder, stem, format) = parts(plot).ok_or_else(|| Error::plain("--plot: no file"))?;
-        let path = found.figure.write_as(folder, stem, format).map_err(PostError::from)?;
+        let path =
+            found.figure.write_as(folder, stem, format, &Paper::SCREEN).map_err(PostError::from)?;
         result.figure = Some(path.display().to_string());
     }
     Ok(result)

@@ -2,8 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::chart::Format;
+use crate::chart::{Format, Paper};
 use crate::check::{Depth, PostError};
+use crate::figures::Choice;
 use crate::sweep::SweepResult;
 use crate::trends::ComparedSweep;
 use serde::{Deserialize, Serialize};
@@ -11,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 use crate::commands::check::{BasisOptions, SpanOptions, basis};
 use crate::commands::sweep_folder;
-use crate::commands::values::all_parsed;
+use crate::commands::values::{FONT_SIZE, PAPER_WIDTH, all_parsed};
 
 /// What to draw.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -33,6 +34,27 @@ pub struct PlotOptions {
     #[cfg_attr(feature = "clap", arg(long, value_name = "svg,png", value_delimiter = ',',
         default_values = ["svg", "png"]))]
     pub format: Vec<Format>,
+    /// Width of a figure on paper (mm), with 300 pixels per inch [default: as on a screen]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "MM",
+        value_parser = |width: &str| PAPER_WIDTH.read(width)))]
+    pub width: Option<f64>,
+    /// Size of the letters (points of 1/72 inch) [default: 6.65]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "PT",
+        value_parser = |size: &str| FONT_SIZE.read(size)))]
+    pub font_size: Option<f64>,
+    /// No caption below the panels
+    #[cfg_attr(feature = "clap", arg(long))]
+    pub no_caption: bool,
+    /// Draw lines and maps at the records nearest to these times in seconds, with a comma between, four at most
+    /// [default: the last three, 5.7e-6 s apart]
+    #[cfg_attr(
+        feature = "clap",
+        arg(long, value_name = "TIME", value_delimiter = ',', allow_hyphen_values = true)
+    )]
+    pub at: Vec<f64>,
+    /// Draw the spectra of these probes, with a comma between [default: the first six]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_delimiter = ','))]
+    pub probes: Vec<usize>,
     /// Over which span of time; lines and maps are those at its end.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub span: SpanOptions,
@@ -65,10 +87,20 @@ pub struct DrawnFigure {
 ///
 /// # Errors
 /// Results that cannot be read; a folder that cannot be written to; `with` beside a run, or beside a
-/// sweep without a creep-force curve.
+/// sweep without a creep-force curve; an instant or a probe that the run does not have.
 pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
     let window = options.span.span()?;
+    PAPER_WIDTH.check("--width", options.width.as_ref())?;
+    FONT_SIZE.check("--font-size", options.font_size.as_ref())?;
+    let paper =
+        Paper { width: options.width, font_size: options.font_size, caption: !options.no_caption };
     let (name, folder, figures) = if let Some(sweep) = sweep_folder::read(&options.run)? {
+        if !(options.at.is_empty() && options.probes.is_empty()) {
+            return Err(Error::option(
+                format!("--at, --probes: {} is a sweep", options.run.display()),
+                "give the folder of one of its runs: only the figures of a run have instants and probes",
+            ));
+        }
         let mut figures = crate::trends::sweep_figures(&options.run, &sweep);
         if !options.with.is_empty() {
             let (name, figure) = compared(options, &sweep)?;
@@ -84,7 +116,8 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
         ));
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
-        let figures = crate::figures::figures(&paths, &mut against, window)?;
+        let choice = Choice { instants: options.at.clone(), probes: options.probes.clone() };
+        let figures = crate::figures::figures(&paths, &mut against, window, &choice)?;
         let figures =
             figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));
         (against.name, paths.folder, figures.collect())
@@ -98,7 +131,7 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
     for (name, about, figure) in figures {
         let mut files = Vec::new();
         for format in formats {
-            let path = figure.write_as(&folder, &name, *format).map_err(PostError::from)?;
+            let path = figure.write_as(&folder, &name, *format, &paper).map_err(PostError::from)?;
             files.push(path.display().to_string());
         }
         drawn.figures.push(DrawnFigure { name, about, files });

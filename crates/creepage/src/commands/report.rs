@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::check::{Criteria, Depth, Limits, PostError, Report};
+use crate::figures::Choice;
 use crate::report::ListedRun;
 use crate::sweep::SweepResult;
 use crate::trends::SweepVerdict;
@@ -84,7 +85,7 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
             map: None,
         };
         let checked = crate::check::check(&paths, &mut against, &wanted)?;
-        let figures = crate::figures::figures(&paths, &mut against, None)?;
+        let figures = crate::figures::figures(&paths, &mut against, None, &Choice::default())?;
         let text = crate::report::run_page(&against, &paths.folder, &checked.result, &figures)?;
         (text, Reported { pass: Some(checked.result.pass), ..Reported::of(page) })
     };

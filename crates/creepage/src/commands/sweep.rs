@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::chart::Format;
+use crate::chart::{Format, Paper};
 use crate::check::PostError;
 use crate::scenario::{Progress, Stage as StageOfRun};
 use crate::sweep::plan::{self, CHECK, Existing};
@@ -265,7 +265,7 @@ fn finish(plan: &Plan, result: SweepResult) -> Result<Swept, Error> {
     let figures = plan.folder.join("figures");
     for (stem, figure) in crate::trends::sweep_figures(&plan.folder, &result) {
         for format in [Format::Svg, Format::Png] {
-            figure.write_as(&figures, &stem, format).map_err(PostError::from)?;
+            figure.write_as(&figures, &stem, format, &Paper::SCREEN).map_err(PostError::from)?;
         }
     }
     let page = Some(write_sweep(&plan.folder, &result)?);

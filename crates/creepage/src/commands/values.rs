@@ -27,6 +27,16 @@ pub const TRANSITS: Rule<f64> =
 /// Memory (MB).
 pub const MEGABYTES: Rule<f64> =
     Rule { holds: TRANSITS.holds, wanted: "a positive number of megabytes is needed" };
+/// Width of a figure (mm).
+pub const PAPER_WIDTH: Rule<f64> = Rule {
+    holds: |mm| (30.0..=1000.0).contains(mm),
+    wanted: "a number of millimetres from 30 to 1000 is needed",
+};
+/// Size of letters (points of 1/72 inch).
+pub const FONT_SIZE: Rule<f64> = Rule {
+    holds: |pt| (4.0..=24.0).contains(pt),
+    wanted: "a number of points from 4 to 24 is needed",
+};
 /// A window of time (s).
 pub const WINDOW: Rule<[f64; 2]> =
     Rule { holds: |[from, to]| from <= to, wanted: "the window ends before it begins" };

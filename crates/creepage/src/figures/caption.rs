@@ -1,6 +1,7 @@
 //! Captions with the key numbers of a case.
 
 use super::scene::Scene;
+use crate::chart::{NO_BREAK, minus};
 use crate::check::basis::number_at;
 use crate::check::law::Law;
 
@@ -22,13 +23,14 @@ pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
         parts.push(format!("N = {:.1} kN", 1e-3 * load));
     }
     if let Some(speed) = basis.scale("speed") {
-        parts.push(format!("V = {speed:.2} m/s"));
+        parts.push(format!("V = {} m/s", minus(&format!("{speed:.2}"))));
     }
     if let Some(creepage) = scene.means.creepage.or(basis.scale("creepage")) {
-        parts.push(format!("creepage {:.3}\u{b7}10\u{207b}\u{b3}", 1e3 * creepage));
+        let creepage = minus(&format!("{:.3}", 1e3 * creepage));
+        parts.push(format!("creepage {creepage}\u{b7}10\u{207b}\u{b3}"));
     }
     if let Some(traction) = scene.means.traction_coefficient {
-        parts.push(format!("T/N = {traction:.4}"));
+        parts.push(format!("T/N = {}", minus(&format!("{traction:.4}"))));
     }
     match basis.law {
         Some(Law::Coulomb(law)) => parts.push(format!("\u{3bc} = {}", law.mu)),
@@ -47,5 +49,8 @@ pub(super) fn caption(scene: &Scene<'_>, text: &str) -> String {
     if let Some(dt) = scene.scales.dt {
         parts.push(format!("dt = {:.1} ns", 1e9 * dt));
     }
+    let parts: Vec<_> = parts.iter().map(|part| part.replace(' ', NO_BREAK)).collect();
+    let text = text.replace(" = ", &format!("{NO_BREAK}={NO_BREAK}"));
+    let text = text.replace(" ms", &format!("{NO_BREAK}ms"));
     format!("{}: {}. {text}", basis.name, parts.join(", "))
 }

@@ -10,7 +10,7 @@ use crate::check::surface::body_name;
 type Quantity<'a> = &'a dyn Fn(&Instant, usize) -> f64;
 
 fn x_axis(scene: &Scene<'_>) -> Axis {
-    let reach = 1e3 * scene.reach();
+    let reach = 1e3 * scene.line_reach;
     Axis::linear("x from the patch's centre (mm)").over(-reach, reach)
 }
 
@@ -19,7 +19,7 @@ fn x_axis(scene: &Scene<'_>) -> Axis {
 fn along(scene: &Scene<'_>, instant: &Instant, body: u8, quantity: Quantity<'_>) -> Vec<[f64; 2]> {
     let place = |row: usize| scene.position(&instant.frame, row)[0] - instant.centre;
     let rows = scene.centreline(body).into_iter();
-    let inside = rows.filter(|&row| place(row).abs() <= scene.reach());
+    let inside = rows.filter(|&row| place(row).abs() <= scene.line_reach);
     inside.map(|row| [1e3 * place(row), quantity(instant, row)]).collect()
 }
 
@@ -185,8 +185,10 @@ pub(super) fn bound(scene: &Scene<'_>) -> Figure {
         }
         for (instant, colour) in scene.instants.iter().zip(INSTANTS) {
             let scaled = |quantity: Quantity<'_>| {
-                along(scene, instant, scene.body, &|i, row| {
-                    quantity(i, row) * if relative { 1.0 } else { pressure(i, row) }
+                along(scene, instant, scene.body, &|i, row| match relative {
+                    true => quantity(i, row),
+                    false if scene.in_contact(&i.frame, row) => quantity(i, row) * pressure(i, row),
+                    false => 0.0,
                 })
             };
             let names = if relative {

@@ -17,8 +17,8 @@ pub(super) struct Band {
 struct Sample {
     /// From and to (s).
     time: [f64; 2],
-    /// Relative to the patch's centre (m).
-    x: f64,
+    /// From and to, relative to the patch's centre (m).
+    x: [f64; 2],
     /// |s| (m/s).
     speed: f64,
     state: Option<u8>,
@@ -28,6 +28,12 @@ struct Sample {
 
 /// Factor by which cells are enlarged, since strain and rounding would leave gaps between them.
 pub(super) const SEAM: f64 = 1.02;
+
+/// A cell enlarged by [`SEAM`].
+pub(super) fn seamless([low, high]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let by = [0, 1].map(|i| 0.5 * (SEAM - 1.0) * (high[i] - low[i]));
+    [[0, 1].map(|i| low[i] - by[i]), [0, 1].map(|i| high[i] + by[i])]
+}
 
 /// Most records that the diagram over time shows.
 const MOST_COLUMNS: usize = 400;
@@ -76,7 +82,8 @@ impl Band {
                     let (speed, ratio) = speed_and_ratio(row);
                     band.samples.push(Sample {
                         time,
-                        x: scene.position(&frame, row)[0] - centre,
+                        x: scene.halves[row][0]
+                            .map(|half| scene.position(&frame, row)[0] - centre + SEAM * half),
                         speed,
                         state: frame.state.as_ref().map(|state| state[row]),
                         ratio,
@@ -123,18 +130,10 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
     });
     let speed_key = speeds(all);
     let state_key = states();
-    // middle and half side of the square of a node (mm)
-    let square = |instant: &Instant, row: usize| {
-        let x = scene.position(&instant.frame, row);
-        ([1e3 * (x[0] - instant.centre), 1e3 * x[1]], 0.5e3 * surface.area[row].sqrt())
-    };
-    let mut reached = [0.0f64; 2];
-    for instant in &scene.instants {
-        for (at, half) in rows_of(instant).into_iter().map(|row| square(instant, row)) {
-            reached = [0, 1].map(|axis| reached[axis].max(at[axis].abs() + half));
-        }
-    }
-    let [width, height] = scene.map_ends(reached);
+    let cells = scene.instants.iter().flat_map(|instant| {
+        rows_of(instant).into_iter().map(|row| scene.cell(instant, row)).collect::<Vec<_>>()
+    });
+    let [width, height] = scene.map_ends(cells);
     let mut panels = Vec::new();
     for by_state in [true, false] {
         if by_state && !scene.history.has.state {
@@ -143,13 +142,12 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
         for instant in &scene.instants {
             let frame = &instant.frame;
             let cells = rows_of(instant).into_iter().map(|row| {
-                let (middle, half) = square(instant, row);
+                let [low, high] = seamless(scene.cell(instant, row));
                 let colour = if by_state {
                     state_colour(frame.state.as_ref().map(|state| state[row]))
                 } else {
                     speed_key.colour(frame.slip_velocity[row].norm())
                 };
-                let [low, high] = [-SEAM, SEAM].map(|by| middle.map(|x| x + by * half));
                 Cell { low, high, colour }
             });
             let key = if by_state { state_key.clone() } else { speed_key.clone() };
@@ -186,7 +184,8 @@ pub(super) fn stick_slip(scene: &Scene<'_>) -> Figure {
 
 /// Slip along y = 0 over time: speed, state, and shear over pressure.
 pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
-    let half = SEAM * 0.5 * scene.scales.size;
+    let reached = band.samples.iter().flat_map(|sample| sample.x.map(f64::abs));
+    let reach = 1e3 * reached.fold(scene.reach(), |reach, x| reach.max(1.05 * x));
     let speed_key = speeds(band.samples.iter().map(|sample| sample.speed));
     let ratio_key = Key::Values {
         label: "p_{f}/p_{n} (-)".into(),
@@ -195,11 +194,10 @@ pub(super) fn space_time(scene: &Scene<'_>, band: &Band) -> Figure {
     };
     let panel = |key: &Key, of: &dyn Fn(&Sample) -> [u8; 3]| {
         let cells = band.samples.iter().map(|sample| Cell {
-            low: [1e3 * sample.time[0], 1e3 * (sample.x - half)],
-            high: [1e3 * sample.time[1], 1e3 * (sample.x + half)],
+            low: [1e3 * sample.time[0], 1e3 * sample.x[0]],
+            high: [1e3 * sample.time[1], 1e3 * sample.x[1]],
             colour: of(sample),
         });
-        let reach = 1e3 * scene.reach();
         Panel {
             fill: Some(Fill { cells: cells.collect(), key: key.clone() }),
             ..Panel::new(

@@ -2,7 +2,7 @@
 //! coefficient of friction.
 
 use super::caption::caption;
-use super::maps::{SEAM, speeds, state_colour, states};
+use super::maps::{SEAM, seamless, speeds, state_colour, states};
 use super::scene::{Instant, Scene, time_label};
 use crate::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, colour};
 use nalgebra::Vector3;
@@ -20,8 +20,8 @@ struct Node {
     row: usize,
     /// x from the patch's centre, and y (mm).
     at: [f64; 2],
-    /// Half the side of its square (mm).
-    half: f64,
+    /// Lower and upper corner of its cell (mm).
+    cell: [[f64; 2]; 2],
 }
 
 /// The nodes in contact at an instant, on the body that is drawn.
@@ -81,7 +81,7 @@ impl<'a> Patch<'a> {
             .map(|row| {
                 let x = scene.position(&instant.frame, row);
                 let at = [1e3 * (x[0] - instant.centre), 1e3 * x[1]];
-                Node { row, at, half: 0.5e3 * surface.area[row].sqrt() }
+                Node { row, at, cell: scene.cell(instant, row) }
             })
             .collect();
         (lines.len() > 2 && !nodes.is_empty()).then_some(Self { scene, instant, nodes })
@@ -89,11 +89,7 @@ impl<'a> Patch<'a> {
 
     /// The range of all maps (mm).
     fn panel(&self, panel: Panel) -> Panel {
-        let reached = [0, 1].map(|axis| {
-            let ends = self.nodes.iter().map(|node| node.at[axis].abs() + node.half);
-            ends.fold(0.0, f64::max)
-        });
-        let [width, height] = self.scene.map_ends(reached);
+        let [width, height] = self.scene.map_ends(self.nodes.iter().map(|node| node.cell));
         let x = Axis::linear("x from the patch's centre (mm)").over(-width, width);
         Panel { x, y: Axis::linear("y (mm)").over(-height, height), to_scale: true, ..panel }
     }
@@ -101,8 +97,7 @@ impl<'a> Patch<'a> {
     /// A map with the border of contact; a node without a colour is left blank.
     fn cells(&self, title: &str, key: &Key, colour_of: impl Fn(usize) -> Option<[u8; 3]>) -> Panel {
         let cell = |node: &Node| {
-            let half = SEAM * node.half;
-            let [low, high] = [-half, half].map(|by| node.at.map(|x| x + by));
+            let [low, high] = seamless(node.cell);
             Some(Cell { low, high, colour: colour_of(node.row)? })
         };
         let cells = self.nodes.iter().filter_map(cell).collect();
@@ -201,7 +196,7 @@ impl<'a> Patch<'a> {
         Series { label: String::new(), points: points.collect(), draw: Draw::Arrows(colour::BLACK) }
     }
 
-    /// The sides of squares at which a node in contact meets one that is not; a point that is not a number ends each.
+    /// The sides of cells at which a node in contact meets one that is not; a point that is not a number ends each.
     fn border(&self) -> Vec<[f64; 2]> {
         let surface = &self.scene.history.surface;
         let node_at: BTreeMap<usize, &Node> =
@@ -227,14 +222,13 @@ impl<'a> Patch<'a> {
     }
 }
 
-/// The side of a node's square that faces the direction `towards`.
+/// The side of a node's cell that faces the direction `towards`.
 fn side(node: &Node, towards: [f64; 2]) -> [[f64; 2]; 2] {
     let axis = usize::from(towards[1].abs() > towards[0].abs());
-    [-1.0, 1.0].map(|end| {
-        let mut at = node.at;
-        at[axis] += node.half * towards[axis].signum();
-        at[1 - axis] += node.half * end;
-        at
+    let beyond = usize::from(towards[axis] > 0.0);
+    node.cell.map(|mut corner| {
+        corner[axis] = node.cell[beyond][axis];
+        corner
     })
 }
 

@@ -1,18 +1,20 @@
 //! The data that figures of a run are drawn from.
 
 use crate::chart::colour;
-use crate::check::Scales;
 use crate::check::basis::Basis;
 use crate::check::frames::{ContactHistory, Frame};
 use crate::check::patch_series;
+use crate::check::surface::Surface;
+use crate::check::{PostError, Scales};
 use nalgebra::Vector3;
 use std::ops::Range;
 
 /// Interval of the snapshots in the papers (s).
 const SNAPSHOTS: f64 = 5.7e-6;
 
-/// Colours of the three instants.
-pub(crate) const INSTANTS: [[u8; 3]; 3] = [colour::BLUE, colour::VERMILION, colour::GREEN];
+/// Colours of the instants, of which no more can be drawn.
+pub(crate) const INSTANTS: [[u8; 3]; 4] =
+    [colour::BLUE, colour::VERMILION, colour::GREEN, colour::PURPLE];
 
 /// A record that is drawn, with the centre of its patch.
 pub(crate) struct Instant {
@@ -43,11 +45,60 @@ pub(crate) struct Scene<'a> {
     /// Means over the window, as far as the run has them.
     pub means: FigureMeans,
     pub instants: Vec<Instant>,
+    /// Of each node the halves of the faces around it: in x and in y the ends of these, from the node (m).
+    pub halves: Vec<[[f64; 2]; 2]>,
+    /// Half the range of x of lines along y = 0 (m).
+    pub line_reach: f64,
+}
+
+/// The halves of the faces around each node, as [`Scene::halves`] has them. At the edge of the surface they end at the node.
+pub(crate) fn halves(surface: &Surface) -> Vec<[[f64; 2]; 2]> {
+    let mut halves = vec![[[0.0f64; 2]; 2]; surface.points.len()];
+    for face in &surface.faces {
+        for [node, other] in face.iter().flat_map(|a| face.map(|b| [*a as usize, b as usize])) {
+            for axis in 0..2 {
+                let half = 0.5 * (surface.points[other][axis] - surface.points[node][axis]);
+                let [low, high] = &mut halves[node][axis];
+                (*low, *high) = (low.min(half), high.max(half));
+            }
+        }
+    }
+    halves
 }
 
 impl Scene<'_> {
-    /// Indices of the last record of the window and of up to two before it.
-    pub fn instant_indices(&self) -> Vec<usize> {
+    /// Indices of the records nearest to the times `at` (s); without any, of the last record of the window and of up to two
+    /// before it.
+    ///
+    /// # Errors
+    /// More times than there are colours, and times without a record.
+    pub fn instant_indices(&self, at: &[f64]) -> Result<Vec<usize>, PostError> {
+        if at.is_empty() {
+            return Ok(self.last_indices());
+        }
+        let most = INSTANTS.len();
+        if at.len() > most {
+            return Err(PostError::Asked(format!("--at: at most {most} instants are drawn")));
+        }
+        let mut indices: Vec<usize> =
+            at.iter().map(|time| self.index_at(*time)).collect::<Result<_, _>>()?;
+        indices.sort_unstable();
+        indices.dedup();
+        Ok(indices)
+    }
+
+    /// The index of the record nearest to a time (s).
+    fn index_at(&self, time: f64) -> Result<usize, PostError> {
+        let times = &self.history.times;
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let away = |i: &usize| (times[*i] - time).abs();
+        let nearest = (0..times.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
+        nearest.filter(|_| (first..=last).contains(&time)).ok_or_else(|| {
+            PostError::Asked(format!("--at {time}: the records are from {first} to {last} s"))
+        })
+    }
+
+    fn last_indices(&self) -> Vec<usize> {
         let times = &self.history.times;
         let last = self.records.end - 1;
         let mut chosen = vec![last];
@@ -80,17 +131,43 @@ impl Scene<'_> {
         self.history.surface.centreline(body, self.scales.size)
     }
 
+    /// The part of the surface that a node stands for at an instant, x from the patch's centre: its lower and its upper
+    /// corner (mm).
+    pub fn cell(&self, instant: &Instant, row: usize) -> [[f64; 2]; 2] {
+        let at = self.position(&instant.frame, row);
+        let from = [instant.centre, 0.0];
+        [0, 1].map(|end| [0, 1].map(|i| 1e3 * (at[i] - from[i] + self.halves[row][i][end])))
+    }
+
+    /// [`line_reach`](Self::line_reach): that of maps and, on coarse meshes, the nodes beside those in contact, at which the
+    /// pressure ends.
+    pub fn reach_of_lines(&self) -> f64 {
+        let mut reach = self.reach();
+        let rows: Vec<usize> =
+            self.history.surface.bodies().iter().flat_map(|body| self.centreline(*body)).collect();
+        for Instant { frame, centre } in &self.instants {
+            for &row in rows.iter().filter(|row| self.in_contact(frame, **row)) {
+                let x = self.position(frame, row)[0] - centre;
+                let [low, high] = self.halves[row][0].map(|half| 1.05 * (x + 2.0 * half).abs());
+                reach = reach.max(low).max(high);
+            }
+        }
+        reach
+    }
+
     /// Half the range of x that is drawn (m).
     pub fn reach(&self) -> f64 {
         1.35 * self.basis.scale("half_length").unwrap_or(10.0 * self.scales.size)
     }
 
     /// Half of what a map of the patch shows in x and in y (mm): the half-space's patch with a margin, and on coarse meshes
-    /// the squares of all nodes in contact, which reach so far from its centre (mm).
-    pub fn map_ends(&self, reached: [f64; 2]) -> [f64; 2] {
+    /// the cells of all nodes in contact (mm).
+    pub fn map_ends(&self, cells: impl Iterator<Item = [[f64; 2]; 2]>) -> [f64; 2] {
         let half_width = self.basis.scale("half_width").unwrap_or(10.0 * self.scales.size);
         let patch = [1e3 * self.reach(), 1.35e3 * half_width];
-        [0, 1].map(|axis| patch[axis].max(1.05 * reached[axis]))
+        cells.flatten().fold(patch, |ends, corner| {
+            [0, 1].map(|axis| f64::max(ends[axis], 1.05 * corner[axis].abs()))
+        })
     }
 
     /// A measure of the patch by Hertz (SI), where it is known apart from the records.
@@ -112,4 +189,30 @@ impl Scene<'_> {
 /// A time in the legend.
 pub(crate) fn time_label(instant: &Instant) -> String {
     format!("t = {:.4} ms", 1e3 * instant.frame.time)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cells_of_a_surface_cover_it_up_to_its_edge_and_no_further() {
+        // two rows of three nodes, 1 mm and then 3 mm apart
+        let xs = [0.0, 1e-3, 4e-3];
+        let points: Vec<Vector3<f64>> =
+            [0.0, 2e-3].iter().flat_map(|y| xs.map(|x| Vector3::new(x, *y, 0.0))).collect();
+        let surface = Surface {
+            points: points.clone(),
+            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
+            face_body: vec![0; 2],
+            body: vec![0; 6],
+            area: vec![0.0; 6],
+        };
+        let halves = halves(&surface);
+        assert_eq!(halves[0], [[0.0, 0.5e-3], [0.0, 1e-3]]);
+        assert_eq!(halves[4], [[-0.5e-3, 1.5e-3], [-1e-3, 0.0]]);
+        let area: f64 =
+            halves.iter().map(|h| h.map(|[low, high]| high - low).iter().product::<f64>()).sum();
+        assert!((area / 8e-6 - 1.0).abs() < 1e-12);
+    }
 }

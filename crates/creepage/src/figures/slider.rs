@@ -7,7 +7,7 @@ use slider::{
 use slider::{SMALLEST_STEP, map_end};
 use std::ops::ControlFlow;
 
-use crate::chart::{Axis, Draw, Figure, Mark, Panel, Series, colour, thin};
+use crate::chart::{Axis, Draw, Figure, Mark, Panel, Series, colour, minus, thin};
 
 /// Time, and the block at that time.
 type Sample = (f64, State);
@@ -80,7 +80,11 @@ fn panels(p: &Parameters, title: &str, samples: &[Sample], span: [f64; 2]) -> [P
 }
 
 fn title(method: Method, p: &Parameters) -> String {
-    format!("{}, dt = {:e} s", method.name(), p.dt)
+    format!("{}, dt = {} s", method.name(), minus(&format!("{:e}", p.dt)))
+}
+
+fn step_label(symbol: &str, step: f64) -> String {
+    format!("{symbol} = {} s", minus(&format!("{step:.3e}")))
 }
 
 /// Figure 6: x, v, s and the forces against time for two methods side by side; in the paper the
@@ -180,11 +184,11 @@ pub fn time_step_map(p: &Parameters) -> Figure {
     };
     let mut marks = vec![Mark {
         x: chatter_step(p),
-        label: format!("dt_{{1}} = {:.3e} s", chatter_step(p)),
+        label: step_label("dt_{1}", chatter_step(p)),
         colour: colour::GREY,
     }];
     if let Some(x) = collapse_step(p) {
-        marks.push(Mark { x, label: format!("dt_{{2}} = {x:.3e} s"), colour: colour::BLACK });
+        marks.push(Mark { x, label: step_label("dt_{2}", x), colour: colour::BLACK });
     }
     let dt = || Axis::log("dt (s)").over(1e-7, 1e-3);
     let mut slip = series(|m, p| m.adhesion_slip / p.adhesion);

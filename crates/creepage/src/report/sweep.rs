@@ -121,7 +121,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
             continue;
         }
         out.push_str(
-            "<table>\n<tr><th>measure</th><th class=\"n\">points</th><th>verdict</th>\
+            "<div class=\"wide lines verdicts\"><table>\n<tr><th>measure</th><th class=\"n\">points</th><th>verdict</th>\
              <th>trend</th></tr>\n",
         );
         for verdict in verdicts {
@@ -134,7 +134,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
                 escape(&verdict.why)
             );
         }
-        out.push_str("</table>\n");
+        out.push_str("</table></div>\n");
     }
 }
 

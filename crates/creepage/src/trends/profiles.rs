@@ -36,6 +36,8 @@ pub(super) fn profile(run: &Path) -> Result<Profile, PostError> {
         window: window.ends(&history.times),
         means: FigureMeans::default(),
         instants: Vec::new(),
+        halves: Vec::new(),
+        line_reach: 0.0,
     };
     let line = scene.centreline(body);
     // per bin: sums of p_n, p_f and |s|, number of nodes for the first two and for the last

@@ -3,14 +3,14 @@ use crate::planted;
 use crate::planted::{COULOMB, H, Leave, NX, NY, Node, OPEN, P0, Surfaces, hertz, perfect};
 use creepage::chart::{Draw, Figure, Panel};
 use creepage::check::{Basis, RunPaths};
-use creepage::figures::figures;
+use creepage::figures::{Choice, figures};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 fn maps(folder: &Path) -> Option<Figure> {
     let paths = RunPaths::of(folder).unwrap();
     let mut basis = Basis::read(&paths).unwrap();
-    let all = figures(&paths, &mut basis, None).unwrap();
+    let all = figures(&paths, &mut basis, None, &Choice::default()).unwrap();
     all.into_iter().find(|named| named.stem == "contact-maps").map(|named| named.figure)
 }
 

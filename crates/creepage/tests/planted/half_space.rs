@@ -1,7 +1,7 @@
 //! Figure 3 shows the half-space's shear for cases that have a reference, scaled to them.
 use crate::planted::*;
 use creepage::check::{Basis, RunPaths};
-use creepage::figures::figures;
+use creepage::figures::{Choice, figures};
 use std::path::Path;
 
 /// The reference in the figure of a planted run whose case is given: its name and its points (mm, MPa).
@@ -22,7 +22,7 @@ fn reference(
     std::fs::write(folder.join("summary.json"), summary).unwrap();
     let paths = RunPaths::of(folder).unwrap();
     let mut basis = Basis::read(&paths).unwrap();
-    let all = figures(&paths, &mut basis, None).unwrap();
+    let all = figures(&paths, &mut basis, None, &Choice::default()).unwrap();
     let figure = all.into_iter().find(|named| named.stem == "figure-3-tractions").unwrap().figure;
     let series = &figure.panels[0].series;
     let found = series.iter().find(|series| series.label.contains("CONTACT"))?;

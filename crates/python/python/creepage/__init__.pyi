@@ -141,6 +141,12 @@ class Run:
         out: _Path | None = None,
         format: str | Sequence[str] = ("svg", "png"),
         window: _Window | None = None,
+        *,
+        width: float | None = None,
+        font_size: float | None = None,
+        caption: bool = True,
+        at: Sequence[float] = (),
+        probes: Sequence[int] = (),
     ) -> dict[str, list[Path]]: ...
     def render(
         self,

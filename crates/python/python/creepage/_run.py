@@ -403,19 +403,45 @@ class Run:
             raise LimitError("beyond a limit: " + ", ".join(broken.values()), run=self)
         return document
 
-    def figures(self, out=None, format=("svg", "png"), window=None) -> dict:
+    def figures(
+        self,
+        out=None,
+        format=("svg", "png"),
+        window=None,
+        *,
+        width=None,
+        font_size=None,
+        caption=True,
+        at=(),
+        probes=(),
+    ) -> dict:
         """Draw the figures of the run.
 
         Args:
             out: their folder [default: figures in the run's].
             format: "svg", "png" or both.
             window: (from, to) in seconds [default: the run's evaluation window].
+            width: on paper (mm), with 300 pixels per inch [default: as on a screen].
+            font_size: of letters (points of 1/72 inch).
+            caption: whether it stands below the panels.
+            at: times (s) of lines and maps, four at most [default: the last three records].
+            probes: numbers of those whose spectra are drawn [default: the first six].
 
         Returns:
             dict: lists of files by the name of the figure.
         """
         formats = format.split(",") if isinstance(format, str) else format
-        options = {"run": self.path, "out": out, "format": list(formats), "span": _span(window)}
+        options = {
+            "run": self.path,
+            "out": out,
+            "format": list(formats),
+            "span": _span(window),
+            "width": width,
+            "font_size": font_size,
+            "no_caption": not caption,
+            "at": list(at),
+            "probes": list(probes),
+        }
         document = execute(_creepage.plot, options)[0]
         return {each["name"]: [Path(file) for file in each["files"]] for each in document["figures"]}
 
