@@ -234,7 +234,7 @@ Metric = TypedDict(
     "Metric",
     {
         "about": str,  # Its definition.
-        "by_springs": NotRequired[bool],  # Whether penalty springs that deform in stick take it beyond its limit: at most [`IN_SLIP_STATE`] of it is left where the algorithm's state is slip.
+        "by_springs": NotRequired[bool],  # Whether penalty springs that deform in stick take it beyond its limit: what is left of it where the algorithm's state is slip keeps its limit, or is at most a tenth of it.
         "deviation": float | None,  # Standard deviation over the records of the same statistic of single records.
         "limit": Limit | None,  # Its limit.
         "note": NotRequired[str | None],  # Why there is no value.
