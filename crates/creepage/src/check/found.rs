@@ -12,7 +12,7 @@ use crate::check::patch_series::PatchMeasure;
 use crate::check::result::{
     CheckResult, Detail, IN_SLIP_STATE, LawFollowed, LawUsed, MeshModeFound, Metric, OnView,
     PairingUsed, PatchMean, Place, Reported, ScaleUsed, Sides, SlipZoneFound, Statistics,
-    Tolerances, View,
+    Tolerances, Verdict, View,
 };
 use crate::check::surface::body_name;
 use crate::check::window::Window;
@@ -394,7 +394,8 @@ impl Evaluation<'_> {
 }
 
 /// Marks the measures that springs in stick take beyond their limits: what is left of them where the algorithm's state
-/// is slip keeps its limit, or is little.
+/// is slip keeps its limit, or is little. Violations count as theirs where law and direction do: with friction that falls,
+/// few nodes are in slip, and those in stick are thrown to and fro.
 fn attribute_to_springs(kind: MethodKind, metrics: &mut BTreeMap<Measure, Metric>) {
     for measure in Measure::ALL {
         let own = measure.in_slip_state().map(|own| &metrics[&own]);
@@ -403,6 +404,10 @@ fn attribute_to_springs(kind: MethodKind, metrics: &mut BTreeMap<Measure, Metric
         let little = |(left, all): (f64, f64)| keeps || left <= IN_SLIP_STATE * all;
         metric.by_springs =
             kind == MethodKind::Penalty && left.zip(metric.value).is_some_and(little);
+    }
+    let wrong = |measure| metrics[&measure].verdict() == Verdict::Fail;
+    if wrong(Measure::LawError) || wrong(Measure::Direction) {
+        metrics.entry(Measure::ViolatingFraction).and_modify(|metric| metric.by_springs = false);
     }
 }
 
@@ -450,35 +455,33 @@ fn law_used(basis: &Basis, followed: bool) -> LawUsed {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::result::Verdict;
 
-    /// The verdict on the law, for its error and what is left of it where the algorithm's state is slip.
-    fn law(kind: MethodKind, [all, left]: [f64; 2]) -> Verdict {
+    /// The verdicts on the law, for its error and what is left of it where the algorithm's state is slip, and on
+    /// violations, of which nothing is left there.
+    fn law(kind: MethodKind, [all, left]: [f64; 2]) -> [Verdict; 2] {
         let limits = Limits::for_enforcement(None);
         let metric = |measure: &Measure| {
             let value = match measure {
                 Measure::LawError => all,
                 Measure::LawErrorSlipState => left,
+                Measure::ViolatingFraction => 0.5,
                 _ => 0.0,
             };
             (*measure, Metric::new(*measure, Some(value), limits.of(*measure), false))
         };
         let mut metrics = Measure::ALL.iter().map(metric).collect();
         attribute_to_springs(kind, &mut metrics);
-        metrics[&Measure::LawError].verdict()
+        [Measure::LawError, Measure::ViolatingFraction].map(|measure| metrics[&measure].verdict())
     }
 
     #[test]
     fn springs_account_for_a_measure_of_which_little_is_left_in_slip_and_for_nothing_else() {
+        use Verdict::{Fail, Pass, Springs};
         let penalty = MethodKind::Penalty;
-        assert_eq!(law(penalty, [0.5, 0.05]), Verdict::Springs);
-        assert_eq!(law(penalty, [0.5, 0.051]), Verdict::Fail);
-        assert_eq!(law(penalty, [0.03, 0.02]), Verdict::Springs, "what is left keeps the limit");
-        assert_eq!(law(penalty, [0.02, 0.0]), Verdict::Pass);
-        assert_eq!(
-            law(MethodKind::Exact, [0.5, 0.0]),
-            Verdict::Fail,
-            "exact contact has no springs"
-        );
+        assert_eq!(law(penalty, [0.5, 0.05]), [Springs; 2]);
+        assert_eq!(law(penalty, [0.5, 0.051]), [Fail; 2], "violations neither");
+        assert_eq!(law(penalty, [0.03, 0.02]), [Springs; 2], "what is left keeps the limit");
+        assert_eq!(law(penalty, [0.02, 0.0]), [Pass, Springs]);
+        assert_eq!(law(MethodKind::Exact, [0.5, 0.0]), [Fail; 2], "exact contact has no springs");
     }
 }
