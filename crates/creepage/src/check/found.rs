@@ -395,7 +395,7 @@ impl Evaluation<'_> {
 
 /// Marks the measures that springs in stick take beyond their limits: what is left of them where the algorithm's state
 /// is slip keeps its limit, or is little. Violations count as theirs where law and direction do: with friction that falls,
-/// few nodes are in slip, and those in stick are thrown to and fro.
+/// few nodes are in slip, and those in stick oscillate.
 fn attribute_to_springs(kind: MethodKind, metrics: &mut BTreeMap<Measure, Metric>) {
     for measure in Measure::ALL {
         let own = measure.in_slip_state().map(|own| &metrics[&own]);

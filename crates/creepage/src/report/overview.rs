@@ -128,7 +128,7 @@ fn in_slip(checked: &CheckResult, own: &[Measure]) -> String {
                 )
             }
             Measure::DirectionSlipState => format!(
-                "its direction from that against the slip by {} (limit {})",
+                "it deviates from the direction opposite to the slip by {} (limit {})",
                 degrees(value),
                 degrees(most)
             ),
