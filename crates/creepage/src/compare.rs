@@ -118,12 +118,19 @@ pub fn compare(runs: &mut [Compared], window: Option<Span>) -> Result<Comparison
     Ok(Comparison { result, figure: figure::figure(&labels, &lines, window) })
 }
 
-/// What tells the runs apart: the names of their cases, of their folders where two cases have one name.
+/// What tells the runs apart: the names of their cases, else of their folders, else the folders as they were given.
 fn labels(runs: &[Compared]) -> Vec<String> {
+    let names: [fn(&Compared) -> String; 3] = [
+        |run| run.basis.name.clone(),
+        |run| run.paths.name(),
+        |run| run.paths.folder.display().to_string(),
+    ];
+    let alone = |name: fn(&Compared) -> String, run: &Compared| {
+        runs.iter().filter(|other| name(other) == name(run)).count() == 1
+    };
     let label = |run: &Compared| {
-        let name = &run.basis.name;
-        let alike = runs.iter().filter(|other| other.basis.name == *name).count();
-        if alike > 1 { run.paths.name() } else { name.clone() }
+        let name = names.into_iter().find(|name| alone(*name, run)).unwrap_or(names[2]);
+        name(run)
     };
     runs.iter().map(label).collect()
 }

@@ -7,6 +7,7 @@ mod creep_force;
 mod figures;
 mod fit;
 mod groups;
+mod limits;
 mod lines;
 mod measures;
 mod profiles;
@@ -20,4 +21,5 @@ pub use trend::{Asymptote, Refinement, Sample, Trend, Verdict, trend};
 pub use verdict::{SweepVerdict, sweep_verdicts};
 
 pub(crate) use groups::{Sweep, steps, value_text};
+pub(crate) use limits::{LIMITS, answers};
 pub(crate) use measures::{MEASURES, SweepMeasure};

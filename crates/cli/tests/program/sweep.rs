@@ -73,8 +73,7 @@ const KT: &str = "base = \"base.toml\"\n[[axis]]\nkey = \"contact.penalty.tangen
 #[test]
 fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
     let after_axis = |line: &str| format!("{AXIS}{line}\n");
-    let cases: Vec<(String, &[&str])> =
-        vec![
+    let cases: Vec<(String, &[&str])> = vec![
         (after_axis("values = []"), &["sweep.toml:5", "empty"]),
         (after_axis("values = [\"slippery\"]"), &["sweep.toml:5", "\"slippery\"", "a number"]),
         (after_axis("values = [0.1, -0.3]"), &["sweep.toml:5", "-0.3", "at least 0"]),
@@ -84,6 +83,14 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
         (after_axis("log = { from = 0.0, to = 1.0, n = 3 }"), &["sweep.toml:5", "positive"]),
         (after_axis("log = { from = 0.1, to = 1.0, n = 1 }"), &["sweep.toml:5", "from 2 to"]),
         (after_axis("linear = { from = 0.1, to = 1.0 }"), &["sweep.toml:5", "n is missing"]),
+        (
+            after_axis("values = [0.1, 0.2]\nnominal = 0.3"),
+            &["sweep.toml:6", "there are: 0.1, 0.2"],
+        ),
+        (
+            format!("mode = \"zip\"\n{AXIS}values = [0.1]\nnominal = 0.1\n"),
+            &["sweep.toml:6", "no axis varies alone"],
+        ),
         (after_axis(""), &["sweep.toml:4", "one of values, log and linear"]),
         ("base = \"base.toml\"\n".into(), &["sweep.toml", "no axis"]),
         (after_axis("values = [0.1]\n[ensemble]\nmembers = 1"), &["sweep.toml:7", "from 2 to"]),
@@ -112,8 +119,10 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
             &["sweep.toml:7", "\"bound\" or \"fixed\""],
         ),
         (
-            format!("mode = \"zip\"\n{AXIS}values = [0.1]\n[[axis]]\nkey = \"friction.law\"\n\
-                     values = [\"coulomb\", \"exponential\"]\n"),
+            format!(
+                "mode = \"zip\"\n{AXIS}values = [0.1]\n[[axis]]\nkey = \"friction.law\"\n\
+                     values = [\"coulomb\", \"exponential\"]\n"
+            ),
             &["sweep.toml:8", "has 2 values and the first has 1"],
         ),
         (

@@ -229,12 +229,13 @@ fn run_one(
     threads: usize,
     mut listener: OfRun<'_>,
 ) -> Result<(), Error> {
+    let folder = plan::run_folder(&plan.folder, &point.name);
     let options = RunOptions {
         case: plan::case_file(&plan.folder, &point.name).into(),
-        out: Some(plan::run_folder(&plan.folder, &point.name)),
         threads: Some(threads),
         preload_cache: Some(plan::preloads(&plan.folder)),
-        resume: true,
+        resume: folder.exists(),
+        out: Some(folder),
         force: true,
         ..RunOptions::default()
     };

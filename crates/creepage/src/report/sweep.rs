@@ -1,11 +1,14 @@
 //! The page of a sweep: its verdicts, its table and its figures.
 
 use super::{escape, head};
+use crate::chart::Figure;
 use crate::check::PostError;
 use crate::check::digits::digits;
+use crate::sweep::plan::{self, quoted};
 use crate::sweep::result::{Entry, SweepPlan, SweepResult};
 use crate::trends::{
-    MEASURES, RULE, Sweep, SweepVerdict, steps, sweep_figures, sweep_verdicts, value_text,
+    LIMITS, MEASURES, RULE, Sweep, SweepVerdict, answers, steps, sweep_figures, sweep_verdicts,
+    value_text,
 };
 use std::fmt::Write;
 use std::path::Path;
@@ -28,6 +31,9 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &SweepResult) -> Result<String
         if known.ensemble { "points of an ensemble" } else { "runs" },
         escape(&known.axes.join(", "))
     );
+    if let Some(title) = &sweep.plan.title {
+        let _ = writeln!(out, "<p>{}</p>", escape(title));
+    }
     if let Some(text) = time_step(&known, &sweep.plan) {
         let _ = writeln!(out, "<p>{text}</p>");
     }
@@ -37,21 +43,27 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &SweepResult) -> Result<String
              preload alone, with half the width of the 95 % confidence interval of that mean.</p>\n",
         );
     }
+    for (question, answer) in answers(&known) {
+        let _ = writeln!(out, "<p><b>{question}</b> {}</p>", escape(&answer));
+    }
+    let (limits, figures): (Vec<_>, Vec<_>) =
+        sweep_figures(folder, sweep).into_iter().partition(|(stem, _)| stem == LIMITS);
+    draw(&mut out, &limits)?;
     trends(&mut out, &verdicts);
     table(&mut out, &known);
     out.push_str("<h2>Figures</h2>\n");
-    for (stem, figure) in sweep_figures(folder, sweep) {
-        let svg = figure.svg_element()?;
-        let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
-    }
+    draw(&mut out, &figures)?;
     if let Some(name) =
         sweep.runs.iter().find_map(|run| run.name.as_deref()).filter(|_| !known.ensemble)
     {
-        let name = escape(name);
+        let case = quoted(&plan::case_file(folder, name).display().to_string());
+        let again = quoted(&folder.join("again").join(name).display().to_string());
         let _ = writeln!(
             out,
             "<h2>How to reproduce</h2>\n<p>The cases of the runs are in the folder of the sweep, each with all its values. \
-             There, for one of them:</p>\n<pre>creepage run cases/{name}.toml --out again/{name}</pre>"
+             For one of them, in the folder from which this page was made:</p>\n<pre>creepage run {} --out {}</pre>",
+            escape(&case),
+            escape(&again)
         );
     }
     let _ = writeln!(
@@ -62,6 +74,14 @@ pub fn sweep_page(name: &str, path: &Path, sweep: &SweepResult) -> Result<String
     );
     super::end(&mut out);
     Ok(out)
+}
+
+fn draw(out: &mut String, figures: &[(String, Figure)]) -> Result<(), PostError> {
+    for (stem, figure) in figures {
+        let svg = figure.svg_element()?;
+        let _ = writeln!(out, "<figure id=\"{stem}\">{svg}</figure>");
+    }
+    Ok(())
 }
 
 /// The time step of the runs, in a sentence, with the rule that it follows; `None` where no run has one.
@@ -101,9 +121,15 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         out,
         "<p>From the fit v = v\u{221e} + c r<sup>\u{2212}q</sup> to the last points of each measure, r growing as the \
          axis is refined; T/N and shear over k<sub>t</sub> by springs in series, 1/v = 1/v\u{221e} + c/k<sub>t</sub>. \
-         {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
+         slip_roughness is the standard deviation over time of |s|/s<sub>c</sub>; roughness_ratio that of \
+         p<sub>f</sub>/p<sub>n</sub> over that of the coefficient which the law gives for the same slip. {RULE} More: docs/checks.md of Creepage, Verdicts on a sweep.</p>"
     );
-    let section = |a: &SweepVerdict, b: &SweepVerdict| a.axis == b.axis && a.others == b.others;
+    let (few, verdicts): (Vec<&SweepVerdict>, Vec<&SweepVerdict>) =
+        verdicts.iter().partition(|v| {
+            let alike = verdicts.iter().filter(|other| other.axis == v.axis);
+            alike.map(|other| other.points).max() < Some(3)
+        });
+    let section = |a: &&SweepVerdict, b: &&SweepVerdict| a.axis == b.axis && a.others == b.others;
     for verdicts in verdicts.chunk_by(section) {
         let (axis, others) = (escape(&verdicts[0].axis), escape(&verdicts[0].others));
         let others = if others.is_empty() { others } else { format!(", {others}") };
@@ -117,7 +143,7 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         }
         let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
         if most < 3 {
-            let _ = writeln!(out, "<p>Cannot be told: {most} points; three are the least.</p>");
+            let _ = writeln!(out, "<p>{}</p>", too_few(most));
             continue;
         }
         out.push_str(
@@ -136,6 +162,15 @@ fn trends(out: &mut String, verdicts: &[SweepVerdict]) {
         }
         out.push_str("</table></div>\n");
     }
+    for verdicts in few.chunk_by(|a, b| a.axis == b.axis) {
+        let most = verdicts.iter().map(|verdict| verdict.points).max().unwrap_or(0);
+        let axis = escape(&verdicts[0].axis);
+        let _ = writeln!(out, "<h3>{axis}</h3>\n<p>{}</p>", too_few(most));
+    }
+}
+
+fn too_few(points: usize) -> String {
+    format!("Cannot be told: {points} points; three are the least.")
 }
 
 /// The table of all runs, with the reason of those that failed.

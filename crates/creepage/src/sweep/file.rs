@@ -20,7 +20,8 @@ const NO_AXIS: [&str; 3] = ["name", "title", "extends"];
 
 /// Keys of the sweep file by section; `[]` stands for the index in an array of tables.
 const TOP: [&str; 8] = ["name", "title", "base", "mode", "set", "axis", "derive", "ensemble"];
-const AXIS: [&str; 4] = ["key", "values", "log", "linear"];
+const AXIS: [&str; 5] = ["key", "nominal", "values", "log", "linear"];
+const FORMS: [&str; 3] = ["values", "log", "linear"];
 const ENSEMBLE: [&str; 2] = ["members", "seed"];
 const SPAN: [&str; 3] = ["from", "to", "n"];
 const DERIVE: [&str; 5] = ["key", "rule", "from", "factor", "power"];
@@ -28,7 +29,8 @@ const DERIVE: [&str; 5] = ["key", "rule", "from", "factor", "power"];
 /// How axes are combined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Every value of each axis with every value of the others; the last axis varies fastest.
+    /// Every value of each axis with every value of the others; the last axis varies fastest. Axes with a nominal
+    /// value vary one at a time.
     Grid,
     /// The n-th values of all axes together.
     Zip,
@@ -51,6 +53,9 @@ pub struct Axis {
     pub key: String,
     /// Its values, each allowed for the key.
     pub values: Vec<Value>,
+    /// Index of the value that it keeps while another axis with such a value varies; none where all its values meet
+    /// all those of the others.
+    pub nominal: Option<usize>,
 }
 
 /// What the time step follows where runs differ in their stability limit.
@@ -159,6 +164,13 @@ impl Sweep {
                 lengths[0]
             );
             return refuse(&format!("axis[{i}].key"), &message, "give all axes the same number");
+        }
+        if self.mode == Mode::Zip
+            && let Some(i) = self.axes.iter().position(|axis| axis.nominal.is_some())
+        {
+            let message =
+                "mode = \"zip\" takes the values of all axes together: no axis varies alone";
+            return refuse(&format!("axis[{i}].nominal"), message, "leave out nominal or the mode");
         }
         let by_axis = |key: &str| self.axes.iter().any(|axis| axis.key == key);
         let given = taken.contains(&"time.step");
@@ -445,7 +457,7 @@ impl Reading<'_> {
         let (members, seed) = (count("members", 2), count("seed", 0).unwrap_or(Some(1)));
         let (members, seed) = (members??, seed? as i64);
         let values = (seed..seed + members as i64).map(Value::Integer).collect();
-        Some(Axis { key: ensemble::AXIS.into(), values })
+        Some(Axis { key: ensemble::AXIS.into(), values, nominal: None })
     }
 
     fn allowed(&mut self, at: &str, key: &Key, value: &Value) -> bool {
@@ -481,8 +493,7 @@ impl Reading<'_> {
     fn axis(&mut self, at: &str, table: &Table) -> Option<Axis> {
         self.known(at, table, &AXIS);
         let key = self.key(at, table);
-        let forms: Vec<&str> =
-            AXIS[1..].iter().filter(|form| table.contains_key(**form)).copied().collect();
+        let forms: Vec<&str> = FORMS.into_iter().filter(|form| table.contains_key(*form)).collect();
         let [form] = forms[..] else {
             let message = format!("{at} must have one of values, log and linear");
             let remedy = "give values = [...], or log or linear = { from = , to = , n = }";
@@ -518,7 +529,29 @@ impl Reading<'_> {
                 self.refuse(&item, &message, "give each value once");
             }
         }
-        Some(Axis { key: key.path.into(), values })
+        let nominal = self.nominal(at, table, key, &values)?;
+        Some(Axis { key: key.path.into(), values, nominal })
+    }
+
+    /// Index of the axis's nominal value among its `values`; `None` after a mistake.
+    fn nominal(
+        &mut self,
+        at: &str,
+        table: &Table,
+        key: &Key,
+        values: &[Value],
+    ) -> Option<Option<usize>> {
+        let Some(nominal) = table.get("nominal") else { return Some(None) };
+        let mut held = nominal.clone();
+        key.hold(&mut held);
+        let found = values.iter().position(|value| *value == held);
+        if found.is_none() {
+            let shown: Vec<String> = values.iter().map(show).collect();
+            let message = format!("{at}.nominal = {} is no value of the axis", show(nominal));
+            let remedy = format!("there are: {}", shown.join(", "));
+            self.refuse(&join(at, "nominal"), &message, &remedy);
+        }
+        found.map(Some)
     }
 
     /// `n` values from `from` to `to`, the ends to the bit.

@@ -42,27 +42,57 @@ impl Sweep {
     /// # Errors
     /// Too many runs; a run whose case is refused, at the place in the sweep file that causes it.
     pub fn points(&self) -> Result<Vec<Point>, CaseError> {
-        let lengths: Vec<usize> = self.axes.iter().map(|axis| axis.values.len()).collect();
-        let count = match self.mode {
-            Mode::Zip => lengths[0],
-            Mode::Grid => lengths.iter().fold(1_usize, |all, &n| all.saturating_mul(n)),
-        };
+        let count = self.count();
         if count > MOST_RUNS {
             let message = format!("the axes make {count} runs, more than {MOST_RUNS}");
             let error = self.layers.places.error("axis", &message, "give fewer values");
             return Err(CaseError::Key(Box::new(error)));
         }
-        (0..count).map(|n| self.point(n, &lengths)).collect()
+        self.combinations().into_iter().enumerate().map(|(n, at)| self.point(n, at)).collect()
     }
 
-    fn point(&self, n: usize, lengths: &[usize]) -> Result<Point, CaseError> {
-        let mut rest = n;
-        let mut indices = vec![n; lengths.len()];
-        if self.mode == Mode::Grid {
-            for (index, length) in indices.iter_mut().zip(lengths).rev() {
-                (*index, rest) = (rest % length, rest / length);
-            }
+    /// How many runs the axes make.
+    fn count(&self) -> usize {
+        let (alone, crossed): (Vec<&Axis>, Vec<&Axis>) =
+            self.axes.iter().partition(|axis| axis.nominal.is_some());
+        match self.mode {
+            Mode::Zip => self.axes[0].values.len(),
+            Mode::Grid => crossed.iter().map(|axis| axis.values.len()).fold(
+                1 + alone.iter().map(|axis| axis.values.len() - 1).sum::<usize>(),
+                |all, n| all.saturating_mul(n),
+            ),
         }
+    }
+
+    /// The index of the value on each axis, run by run.
+    fn combinations(&self) -> Vec<Vec<usize>> {
+        if self.mode == Mode::Zip {
+            return (0..self.count()).map(|n| vec![n; self.axes.len()]).collect();
+        }
+        let nominal: Vec<usize> =
+            self.axes.iter().map(|axis| axis.nominal.unwrap_or_default()).collect();
+        let with = |at: &[usize], axis: usize, value: usize| {
+            let mut at = at.to_vec();
+            at[axis] = value;
+            at
+        };
+        let mut all: Vec<Vec<usize>> = Vec::new();
+        for (i, axis) in self.axes.iter().enumerate().filter(|(_, axis)| axis.nominal.is_some()) {
+            // the point at which all have their nominal values stands on the first of these axes
+            let values = (0..axis.values.len()).filter(|&k| all.is_empty() || k != nominal[i]);
+            all.extend(values.map(|k| with(&nominal, i, k)).collect::<Vec<_>>());
+        }
+        if all.is_empty() {
+            all.push(nominal);
+        }
+        for (i, axis) in self.axes.iter().enumerate().filter(|(_, axis)| axis.nominal.is_none()) {
+            let values = 0..axis.values.len();
+            all = all.iter().flat_map(|at| values.clone().map(move |k| with(at, i, k))).collect();
+        }
+        all
+    }
+
+    fn point(&self, n: usize, indices: Vec<usize>) -> Result<Point, CaseError> {
         let chosen: Vec<(&str, &Value)> = self
             .axes
             .iter()

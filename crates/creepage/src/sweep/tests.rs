@@ -48,6 +48,28 @@ fn a_grid_has_every_pair_and_the_last_axis_runs_fastest() {
 }
 
 #[test]
+fn axes_with_a_nominal_value_vary_one_at_a_time_and_the_others_cross_them() {
+    let axis = |key: &str, values: &str, nominal: &str| {
+        format!("[[axis]]\nkey = \"{key}\"\nvalues = {values}\n{nominal}\n")
+    };
+    let text = axis("drive.creepage", "[1e-3, 2e-3, 4e-3]", "nominal = 2e-3")
+        + &axis("load.normal", "[1e5, 2e5]", "nominal = 1e5")
+        + &axis("friction.static", "[0.2, 0.3]", "");
+    let (_dir, sweep) = sweep(&text);
+    let points = sweep.unwrap().points().unwrap();
+    let found: Vec<[f64; 3]> = points
+        .iter()
+        .map(|point| {
+            ["drive.creepage", "load.normal", "friction.static"]
+                .map(|key| point.parameters[key].as_float().unwrap())
+        })
+        .collect();
+    let alone = [[1e-3, 1e5], [2e-3, 1e5], [4e-3, 1e5], [2e-3, 2e5]];
+    let all = alone.iter().flat_map(|[c, n]| [[*c, *n, 0.2], [*c, *n, 0.3]]);
+    assert_eq!(found, all.collect::<Vec<_>>());
+}
+
+#[test]
 fn a_whole_number_may_be_written_with_an_exponent() {
     let axis = |values: &str| format!("[[axis]]\nkey = \"output.history_interval\"\n{values}\n");
     for values in ["values = [1e2, 200]", "linear = { from = 1e2, to = 2e2, n = 2.0 }"] {

@@ -2,7 +2,7 @@
 
 use super::groups::Sweep;
 use super::lines::{GROUPS, line};
-use super::measures::{MEASURES, SweepMeasure};
+use super::measures::{MEASURES, SweepMeasure, UNBOUNDED};
 use crate::chart::{Axis, Figure, Panel};
 use crate::sweep::result::{Measured, SweepResult};
 use std::path::Path;
@@ -128,7 +128,7 @@ fn panel(
     let series = shown.iter().flat_map(|curve| {
         let place = names.iter().position(|known| known == name(curve)).unwrap_or(0);
         let label = if legend { name(curve).clone() } else { String::new() };
-        line(label, GROUPS[place % GROUPS.len()], &curve.points, false)
+        line(label, GROUPS[place % GROUPS.len()], &curve.points, UNBOUNDED)
     });
     Panel {
         title,

@@ -2,8 +2,9 @@
 
 use super::creep_force::{CREEP_FORCE, creep_force};
 use super::groups::{Group, Sweep, short};
-use super::lines::{GROUPS, axis_over, label, line, spans_decades};
-use super::measures::MEASURES;
+use super::limits::{LIMITS, limits};
+use super::lines::{GROUPS, axis_over, ends, label, line, spans_decades};
+use super::measures::{MEASURES, SweepMeasure};
 use super::profiles::{Profile, profile};
 use super::verdict::towards_zero;
 use crate::chart::{Axis, Cell, Draw, Figure, Fill, Key, Panel, Scale, Series, viridis};
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// All figures of a sweep with the names of their files: `measures-AXIS`, each measure over an axis;
 /// `profiles-AXIS`, the centre lines along it; for two axes `map`, measures over both; and `creep-force`
-/// ([`creep_force_figure`](super::creep_force_figure)). Runs that did not complete are left out, and so
+/// ([`creep_force_figure`](super::creep_force_figure)); `limits`, the measures of the three questions. Runs that did not complete are left out, and so
 /// are contact histories that cannot be read.
 ///
 /// `folder` is the folder of the sweep.
@@ -35,6 +36,9 @@ pub fn sweep_figures(folder: &Path, sweep: &SweepResult) -> Vec<(String, Figure)
     {
         all.push(("map".into(), figure));
     }
+    if let Some(figure) = limits(&sweep) {
+        all.push((LIMITS.into(), figure));
+    }
     if let Some(figure) = creep_force(&[(String::new(), &sweep)]) {
         all.push((CREEP_FORCE.into(), figure));
     }
@@ -51,28 +55,7 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     let x = axis_over(&label(axis, sweep.form(axis)), &sweep.values(axis));
     let mut panels = Vec::new();
     for measure in &MEASURES {
-        let lines: Vec<(&Group<'_>, Vec<(f64, Measured)>)> = groups
-            .iter()
-            .map(|group| {
-                let points = group.members.iter();
-                (group, points.filter_map(|(x, run)| Some((*x, measure.of(*run)?))).collect())
-            })
-            .collect();
-        let points = || lines.iter().flat_map(|(_, points)| points);
-        if points().count() == 0 {
-            continue;
-        }
-        let log = spans_decades(points().map(|(_, point)| point.value));
-        let heading = measure.heading();
-        let y = if log { Axis::log(&heading) } else { wide_enough(&heading, points()) };
-        let first = panels.is_empty();
-        let mut series = Vec::new();
-        for (k, (group, points)) in lines.iter().enumerate() {
-            let label = if first { group.label.clone() } else { String::new() };
-            series.extend(line(label, GROUPS[k % GROUPS.len()], points, log));
-        }
-        let (fill, marks) = (None, Vec::new());
-        panels.push(Panel { fill, series, marks, ..Panel::new(x.clone(), y) });
+        panels.extend(panel(measure, &x, groups, panels.is_empty()));
     }
     if panels.is_empty() {
         return None;
@@ -92,11 +75,40 @@ fn measures(axis: &str, groups: &[Group<'_>], sweep: &Sweep<'_>) -> Option<Figur
     Some(Figure { size, columns: 3, panels, caption })
 }
 
+/// A measure over the axis `x`, a line for each group, which the legend names if it is `named`; `None` where no run
+/// has it.
+pub(super) fn panel(
+    measure: &SweepMeasure,
+    x: &Axis,
+    groups: &[Group<'_>],
+    named: bool,
+) -> Option<Panel> {
+    let points: Vec<Vec<(f64, Measured)>> = groups.iter().map(|g| g.points(measure)).collect();
+    let all = || points.iter().flatten();
+    if all().count() == 0 {
+        return None;
+    }
+    let log = spans_decades(all().map(|(_, point)| point.value));
+    let heading = measure.heading();
+    let [least, most] = measure.bounds();
+    // on a logarithmic axis a bar that reaches below zero ends a decade below the least value
+    let least =
+        if log { 0.1 * all().map(|(_, p)| p.value).fold(f64::INFINITY, f64::min) } else { least };
+    let bounds = [least, most];
+    let ends = all().map(|(_, point)| ends(point, bounds));
+    let y = if log { Axis::log(&heading) } else { wide_enough(&heading, ends) };
+    let mut series = Vec::new();
+    for (k, (group, points)) in groups.iter().zip(&points).enumerate() {
+        let label = if named { group.label.clone() } else { String::new() };
+        series.extend(line(label, GROUPS[k % GROUPS.len()], points, bounds));
+    }
+    Some(Panel { series, ..Panel::new(x.clone(), y) })
+}
+
 /// A linear axis of at least 6 % of its middle, so that small changes do not fill it.
-fn wide_enough<'a>(heading: &str, points: impl Iterator<Item = &'a (f64, Measured)>) -> Axis {
-    let ends = points.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], (_, point)| {
-        let scatter = point.bar().unwrap_or(0.0);
-        [low.min(point.value - scatter), high.max(point.value + scatter)]
+fn wide_enough(heading: &str, bars: impl Iterator<Item = [f64; 2]>) -> Axis {
+    let ends = bars.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], bar| {
+        [low.min(bar[0]), high.max(bar[1])]
     });
     let middle = 0.5 * (ends[0] + ends[1]);
     let half = (0.52 * (ends[1] - ends[0])).max(0.03 * middle.abs());

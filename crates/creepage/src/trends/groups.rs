@@ -1,6 +1,7 @@
 //! The runs of a sweep, in groups along its axes.
 
-use crate::sweep::result::{Entry, SweepResult};
+use super::measures::SweepMeasure;
+use crate::sweep::result::{Entry, Measured, SweepResult};
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -18,10 +19,17 @@ pub(crate) struct Sweep<'a> {
 
 /// Runs that differ in one axis only.
 pub(crate) struct Group<'a> {
-    /// The other axes with their values; empty where there are none.
+    /// The other axes in which groups differ, with their values; empty where there are none.
     pub label: String,
     /// Value of the axis and run, by rising value.
     pub members: Vec<(f64, Entry<'a>)>,
+}
+
+impl Group<'_> {
+    /// A measure over the axis; runs without it are left out.
+    pub fn points(&self, measure: &SweepMeasure) -> Vec<(f64, Measured)> {
+        self.members.iter().filter_map(|(x, run)| Some((*x, measure.of(*run)?))).collect()
+    }
 }
 
 impl<'a> Sweep<'a> {
@@ -79,35 +87,58 @@ impl<'a> Sweep<'a> {
         values
     }
 
-    /// The completed runs in groups that differ in `axis` only, in the order of the sweep. Where no two runs
-    /// do (axes that vary together), all of them are one group.
+    /// The completed runs in groups that differ in `axis` only, in the order of the sweep. A run that has no other
+    /// value of the axis beside it is in none; where that holds for all (axes that vary together), they are one group.
     pub fn groups(&self, axis: &str) -> Vec<Group<'a>> {
-        let mut groups: Vec<Group<'a>> = Vec::new();
-        let mut all = Group { label: String::new(), members: Vec::new() };
-        for run in self.completed() {
-            let Some(value) = self.number(run, axis) else {
-                continue;
-            };
-            let others = self.axes.iter().filter(|other| **other != axis);
-            let label: Vec<String> = others
-                .map(|other| format!("{other} = {}", value_text(run.parameters().get(*other))))
-                .collect();
-            let label = label.join(", ");
-            all.members.push((value, run));
-            match groups.iter_mut().find(|group| group.label == label) {
-                Some(group) => group.members.push((value, run)),
-                None => groups.push(Group { label, members: vec![(value, run)] }),
+        let others: Vec<&str> = self.axes.iter().copied().filter(|other| *other != axis).collect();
+        let text = |run: Entry<'a>, other: &&str| value_text(run.parameters().get(*other));
+        let mut groups: Vec<(Vec<String>, Vec<(f64, Entry<'a>)>)> = Vec::new();
+        for run in self.runs.iter().copied() {
+            let Some(value) = self.number(run, axis) else { continue };
+            let values: Vec<String> = others.iter().map(|other| text(run, other)).collect();
+            match groups.iter_mut().find(|(known, _)| *known == values) {
+                Some((_, members)) => members.push((value, run)),
+                None => groups.push((values, vec![(value, run)])),
             }
         }
-        if groups.iter().all(|group| group.members.len() < 2) {
-            groups = vec![all];
+        if groups.iter().all(|(_, members)| members.len() < 2) {
+            let all = groups.into_iter().flat_map(|(_, members)| members);
+            groups = vec![(Vec::new(), all.collect())];
         }
-        for group in &mut groups {
-            group.members.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
-        groups
+        groups.retain(|(_, members)| members.len() > 1);
+        let first = groups.first().map(|(values, _)| values.clone()).unwrap_or_default();
+        let differs = |i: usize| groups.iter().any(|(values, _)| values[i] != first[i]);
+        let differing: Vec<usize> = (0..first.len()).filter(|i| differs(*i)).collect();
+        let label = |values: &[String]| {
+            let parts = differing.iter().map(|i| format!("{} = {}", others[*i], values[*i]));
+            parts.collect::<Vec<_>>().join(", ")
+        };
+        let group = |(values, mut members): (Vec<String>, Vec<(f64, Entry<'a>)>)| {
+            members.retain(|(_, run)| run.completed());
+            members.sort_by(|a, b| a.0.total_cmp(&b.0));
+            Group { label: label(&values), members }
+        };
+        groups.into_iter().map(group).filter(|group| !group.members.is_empty()).collect()
+    }
+
+    /// The run with exact contact that else equals a run of the group, if there is one beside those with springs.
+    pub fn exact_beside(&self, group: &Group<'a>) -> Option<Entry<'a>> {
+        let enforcement = |run: Entry<'a>| run.parameters().get(ENFORCEMENT)?.as_str();
+        let alike = |a: Entry<'a>, b: Entry<'a>| {
+            let mut others = self.axes.iter().filter(|axis| **axis != ENFORCEMENT);
+            others.all(|axis| a.parameters().get(*axis) == b.parameters().get(*axis))
+        };
+        let beside = |exact: Entry<'a>| {
+            let springs = |run: Entry<'a>| enforcement(run) != Some(EXACT) && alike(run, exact);
+            group.members.iter().any(|(_, run)| springs(*run))
+        };
+        self.completed().find(|run| enforcement(*run) == Some(EXACT) && beside(*run))
     }
 }
+
+/// Key of the enforcement of contact, and its word for contact without springs.
+const ENFORCEMENT: &str = "contact.enforcement";
+const EXACT: &str = "exact";
 
 /// The form of a parameter and its number.
 fn number_in_form<'a>(run: Entry<'a>, key: &str) -> Option<(&'a str, f64)> {

@@ -33,15 +33,20 @@ pub(super) fn axis_over(text: &str, values: &[f64]) -> Axis {
     if log { Axis::log(text) } else { Axis::linear(text) }
 }
 
-/// A measure over an axis: a line, its points, and bars for their uncertainty.
+/// A measure over an axis: a line, its points, and bars for their uncertainty within `bounds`.
 pub(super) fn line(
     label: String,
     colour: [u8; 3],
     points: &[(f64, Measured)],
-    log: bool,
+    bounds: [f64; 2],
 ) -> [Series; 3] {
     let places: Vec<[f64; 2]> = points.iter().map(|(x, point)| [*x, point.value]).collect();
-    let bars = points.iter().flat_map(|(x, point)| bar(*x, point, log)).collect();
+    let ended = |(x, point): &(f64, Measured)| {
+        let [low, high] = ends(point, bounds);
+        // NaN ends the line
+        if low < high { vec![[*x, low], [*x, high], [*x, f64::NAN]] } else { Vec::new() }
+    };
+    let bars = points.iter().flat_map(ended).collect();
     let unnamed = |points, draw| Series { label: String::new(), points, draw };
     [
         Series { label, points: places.clone(), draw: Draw::Line(colour) },
@@ -50,15 +55,13 @@ pub(super) fn line(
     ]
 }
 
-/// The bar of a point as a line, then NaN, which ends the line.
-fn bar(x: f64, point: &Measured, log: bool) -> Vec<[f64; 2]> {
-    let Some(scatter) = point.bar().filter(|scatter| *scatter > 0.0) else {
-        return Vec::new();
-    };
-    // on a logarithmic axis a bar that reaches below zero ends a decade down
-    let low = point.value - scatter;
-    let low = if log { low.max(0.1 * point.value) } else { low };
-    vec![[x, low], [x, point.value + scatter], [x, f64::NAN]]
+/// The ends of the bar of a point, which stays within `bounds`: a share is no larger than one.
+pub(super) fn ends(point: &Measured, [least, most]: [f64; 2]) -> [f64; 2] {
+    let half = point.bar().unwrap_or(0.0);
+    [
+        (point.value - half).max(least.min(point.value)),
+        (point.value + half).min(most.max(point.value)),
+    ]
 }
 
 /// Whether values span more than a decade, so that a logarithmic axis shows them.

@@ -60,8 +60,11 @@ const fn of_friction(measure: SweepMeasure) -> SweepMeasure {
     SweepMeasure { of_friction: true, ..measure }
 }
 
+/// Any number.
+pub(super) const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
 /// All measures, in the order of figures and tables.
-pub(crate) const MEASURES: [SweepMeasure; 23] = [
+pub(crate) const MEASURES: [SweepMeasure; 24] = [
     measure(
         "peak pressure (fit)",
         "MPa",
@@ -111,6 +114,7 @@ pub(crate) const MEASURES: [SweepMeasure; 23] = [
     measure("slip_roughness", "", 1.0, true, S::SlipRoughness),
     metric(Measure::RoughnessRatio, "", true),
     metric(Measure::ViolatingFraction, "", true),
+    metric(Measure::ViolatingFractionSlipState, "", true),
     metric(Measure::WrongDirection, "", true),
     metric(Measure::Dissipation, "", false),
     metric(Measure::LawError, "", true),
@@ -143,6 +147,17 @@ impl SweepMeasure {
             Source::SlipRoughness => slip_roughness(run),
         };
         found.map(|found| found.times(self.factor))
+    }
+
+    /// Between which values the measure can lie: a share between 0 and 1.
+    pub fn bounds(&self) -> [f64; 2] {
+        let share = match self.source {
+            Source::Mean(mean, _) => mean == Mean::StickFraction,
+            Source::SlipZone(quantity) => quantity == SlipQuantity::FluctuatingShare,
+            Source::Metric(measure) => measure.definition().statistic == "share",
+            Source::Patch(_) | Source::SlipRoughness => false,
+        };
+        if share { [0.0, 1.0] } else { UNBOUNDED }
     }
 
     /// Name with unit.

@@ -364,6 +364,38 @@ impl Trend {
         }
     }
 
+    /// What a measure in `unit` does, as half a sentence; `last` is its value at the last point.
+    pub fn phrase(&self, last: f64, unit: &str) -> String {
+        let with = |value: f64| format!("{} {unit}", digits(value, 4)).trim_end().to_owned();
+        match self {
+            Self::Flat { mean, .. } => format!("settles at {}", with(*mean)),
+            Self::Reached(limit) => format!("settles at {}", limit.text(unit)),
+            Self::Approaches(limit) => {
+                format!("has not settled at {} and heads for {}", with(last), limit.text(unit))
+            }
+            Self::Vanishes { .. } => format!("falls to zero, at last {}", with(last)),
+            Self::Grows { .. } => format!("does not settle, at last {}", with(last)),
+            Self::Hidden { mean, .. } => format!("scatters about {}", with(*mean)),
+            Self::Wide(_) | Self::Unclear { .. } => {
+                format!("shows no limit that can be told, at last {}", with(last))
+            }
+        }
+    }
+
+    /// The limit and half the width of its interval, where the points give one.
+    pub fn limit(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Flat { mean, range, .. } => Some([*mean, 0.5 * range]),
+            Self::Reached(limit) | Self::Approaches(limit) | Self::Wide(limit) => {
+                Some([limit.value, limit.half])
+            }
+            Self::Vanishes { .. }
+            | Self::Grows { .. }
+            | Self::Hidden { .. }
+            | Self::Unclear { .. } => None,
+        }
+    }
+
     /// In a sentence, for `points` points of a measure in `unit`.
     pub fn sentence(&self, points: usize, unit: &str) -> String {
         let with = |value: f64| format!("{} {unit}", digits(value, 4)).trim_end().to_owned();

@@ -1,6 +1,6 @@
 //! The verdicts of a sweep: every measure along every axis.
 
-use super::groups::{Sweep, steps};
+use super::groups::{Group, Sweep, steps};
 use super::measures::{MEASURES, SweepMeasure};
 use super::trend::{Refinement, Sample, Trend, trend};
 use crate::sweep::result::{Measured, SweepResult};
@@ -55,6 +55,21 @@ fn refinement(axis: &str, measure: &SweepMeasure) -> Refinement {
     }
 }
 
+/// The trend of a measure over an axis, and the number of its points; a value of zero on the axis has no place on a
+/// fitted trend. `None` where no run has the measure.
+pub(super) fn group_trend(
+    axis: &str,
+    group: &Group<'_>,
+    measure: &SweepMeasure,
+) -> Option<(usize, Trend)> {
+    let points = group.points(measure).into_iter().filter(|(x, _)| *x > 0.0);
+    let samples: Vec<Sample> = points
+        .map(|(x, Measured { value, half, deviation })| Sample { x, value, half, deviation })
+        .collect();
+    let trend = trend(&samples, refinement(axis, measure));
+    (!samples.is_empty()).then_some((samples.len(), trend))
+}
+
 /// The verdicts on all measures that the runs of a sweep have, along each axis of numbers; values of the axis that
 /// are not positive are left out. `folder` is the folder of the sweep.
 pub fn sweep_verdicts(folder: &Path, sweep: &SweepResult) -> Vec<SweepVerdict> {
@@ -65,29 +80,16 @@ pub fn sweep_verdicts(folder: &Path, sweep: &SweepResult) -> Vec<SweepVerdict> {
             let steps = steps(group.members.iter().map(|(_, run)| *run));
             let time_steps = steps.filter(|_| !OF_THE_STEP.contains(&axis));
             for measure in &MEASURES {
-                let samples: Vec<Sample> = group
-                    .members
-                    .iter()
-                    // a value of zero has no place on the fitted trend
-                    .filter(|(x, _)| *x > 0.0)
-                    .filter_map(|(x, run)| {
-                        let Measured { value, half, deviation } = measure.of(*run)?;
-                        Some(Sample { x: *x, value, half, deviation })
-                    })
-                    .collect();
-                if samples.is_empty() {
-                    continue;
-                }
-                let trend = trend(&samples, refinement(axis, measure));
+                let Some((points, trend)) = group_trend(axis, &group, measure) else { continue };
                 verdicts.push(SweepVerdict {
                     axis: axis.into(),
                     others: group.label.clone(),
                     measure: measure.name,
                     unit: measure.unit,
-                    points: samples.len(),
+                    points,
                     time_steps,
                     verdict: trend.word(),
-                    why: trend.sentence(samples.len(), measure.unit),
+                    why: trend.sentence(points, measure.unit),
                     trend,
                 });
             }

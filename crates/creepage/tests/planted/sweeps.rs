@@ -81,7 +81,9 @@ fn two_axes_have_a_map_a_line_for_each_value_of_the_other_and_a_verdict_for_each
     let sweep = read(json!({ "parameters": [SPRING, MESH], "runs": runs }));
     let figures = sweep_figures(Path::new("s"), &sweep);
     let names: Vec<&str> = figures.iter().map(|(name, _)| name.as_str()).collect();
-    assert_eq!(names, ["measures-contact-penalty-tangential", "measures-mesh-zone-size", "map"]);
+    let expected =
+        ["measures-contact-penalty-tangential", "measures-mesh-zone-size", "map", "limits"];
+    assert_eq!(names, expected);
     let spring = &figures[0].1;
     assert!(spring.caption.contains("1 of 12 runs did not complete"), "{}", spring.caption);
     let labels: Vec<&str> = spring.panels[0].series.iter().map(|s| s.label.as_str()).collect();
@@ -166,6 +168,51 @@ fn a_step_that_changes_along_an_axis_is_told_on_the_page_and_beside_the_verdicts
     assert!(text.contains("Time step of all runs: 92.00 ns") && !text.contains("changes along"));
 }
 
+/// A run of constant friction (`decay` 0) or falling friction, with springs or without.
+fn limit_run(k: f64, dt: f64, enforcement: &str, decay: f64) -> Value {
+    let exact = enforcement == "exact";
+    let traction = if exact { 0.25 } else { 1.0 / (4.0 + 0.1 / k) } - 0.01 * decay;
+    let violating = if exact { 0.0 } else { 0.96 };
+    json!({
+        "parameters": { SPRING: k, STEP: dt, "contact.enforcement": enforcement,
+                        "friction.decay": decay },
+        "status": "completed", "run": "none",
+        "summary": { "dt": dt, "contact": { "traction_coefficient": traction } },
+        "check": { "metrics": { "violating_fraction": { "value": violating },
+                                "violating_fraction_slip_state": { "value": 0.5 * violating } } },
+    })
+}
+
+const STEP: &str = "time.step";
+
+#[test]
+fn the_page_opens_with_what_springs_and_step_lead_to_beside_exact_contact() {
+    let mut runs = Vec::new();
+    for decay in [0.0, 6.0] {
+        runs.extend([0.1, 1.0, 10.0, 100.0].map(|k| limit_run(k, 5e-8, "penalty", decay)));
+        runs.extend([1e-8, 2e-8].map(|dt| limit_run(1.0, dt, "penalty", decay)));
+        runs.push(limit_run(1.0, 5e-8, "exact", decay));
+    }
+    let parameters = [SPRING, STEP, "contact.enforcement", "friction.decay"];
+    let sweep = read(json!({ "parameters": parameters, "runs": runs }));
+    let page = sweep_page("limit", Path::new("s/sweep.json"), &sweep).unwrap();
+    for part in [
+        "<b>Does the force T/N settle?</b> As contact.penalty.tangential grows, with \
+         friction.decay = 0 it settles at 0.25",
+        "(exact contact: 0.2500); with friction.decay = 6 it ",
+        "As time.step goes to zero, with friction.decay = 0 it settles at 0.2439",
+        "Over time.step, with friction.decay = 0 on 96 % of contact area and time, on 48 % where nodes slip by the algorithm (exact contact: 0 %)",
+        "id=\"limits\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+    let verdicts = sweep_verdicts(Path::new("s"), &sweep);
+    let forces = verdicts.iter().filter(|v| v.measure == "T/N");
+    let labels: Vec<&str> = forces.map(|v| v.others.as_str()).collect();
+    let laws = ["friction.decay = 0", "friction.decay = 6"];
+    assert_eq!(labels, [laws, laws].concat(), "exact contact is no group of its own");
+}
+
 #[test]
 fn profiles_are_read_from_the_runs_and_runs_without_a_file_are_left_out() {
     let folder = tempfile::tempdir().unwrap();
@@ -195,7 +242,7 @@ fn the_page_has_table_reasons_and_verdicts_and_a_document_that_is_no_sweep_is_re
     sweep.runs[0].name = Some("000-tangential-0.1".into());
     let page = sweep_page("kt", Path::new("s/sweep.json"), &sweep).unwrap();
     for part in [
-        "creepage run cases/000-tangential-0.1.toml --out again/000-tangential-0.1",
+        "creepage run s/cases/000-tangential-0.1.toml --out s/again/000-tangential-0.1",
         "4 runs over contact.penalty.tangential; 3 completed",
         "failed: the energy grew &lt;12 times&gt;",
         "<td>settles</td>",
