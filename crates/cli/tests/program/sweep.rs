@@ -89,7 +89,7 @@ fn a_bad_sweep_file_is_refused_with_its_line_before_anything_is_written() {
         ),
         (
             format!("mode = \"zip\"\n{AXIS}values = [0.1]\nnominal = 0.1\n"),
-            &["sweep.toml:6", "no axis varies alone"],
+            &["sweep.toml:7", "no axis varies alone"],
         ),
         (after_axis(""), &["sweep.toml:4", "one of values, log and linear"]),
         ("base = \"base.toml\"\n".into(), &["sweep.toml", "no axis"]),

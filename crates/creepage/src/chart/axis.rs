@@ -150,11 +150,12 @@ impl Ticked {
         if self.log {
             return logarithmic(place, self.ticks.iter().all(|tick| is_whole(*tick)));
         }
-        if self.decimals > 4 || place.abs() >= 1e5 {
-            return minus(&format!("{place:.1e}"));
+        // the tick at zero may carry a sign and a rest from rounding
+        let place = if place.abs() < 1e-9 * (self.high() - self.low()) { 0.0 } else { place };
+        if place != 0.0 && (self.decimals > 4 || place.abs() >= 1e5) {
+            let sign = if place < 0.0 { "\u{2212}" } else { "" };
+            return format!("{sign}{}", logarithmic(libm::log10(place.abs()), false));
         }
-        // the tick at zero may carry a sign from rounding
-        let place = if place.abs() < 1e-12 { 0.0 } else { place };
         minus(&format!("{place:.*}", self.decimals))
     }
 }
