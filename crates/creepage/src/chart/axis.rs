@@ -152,7 +152,10 @@ impl Ticked {
         }
         // the tick at zero may carry a sign and a rest from rounding
         let place = if place.abs() < 1e-9 * (self.high() - self.low()) { 0.0 } else { place };
-        if place != 0.0 && (self.decimals > 4 || place.abs() >= 1e5) {
+        if place == 0.0 && self.decimals > 4 {
+            return "0".into();
+        }
+        if self.decimals > 4 || place.abs() >= 1e5 {
             let sign = if place < 0.0 { "\u{2212}" } else { "" };
             return format!("{sign}{}", logarithmic(libm::log10(place.abs()), false));
         }
