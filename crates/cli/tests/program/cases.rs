@@ -68,7 +68,7 @@ fn copies_run_where_they_are_and_replace_no_other_text() {
     fs::write(&base, "# mine\n").unwrap();
     refused(folder, "cases zhao-li/b-falling", "a-coulomb.toml: there is another file");
     assert_eq!(fs::read_to_string(&base).unwrap(), "# mine\n");
-    refused(folder, "cases b-faling", "`creepage cases` lists them");
+    refused(folder, "cases elsewhere", "`creepage cases` lists them");
     printed(folder, "cases zhao-li/b-falling --force");
     assert!(fs::read_to_string(&base).unwrap().contains("title"));
 }
