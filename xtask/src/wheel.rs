@@ -23,15 +23,17 @@ pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
     build(root, &python, &PORTABLE)
 }
 
-/// Builds the wheel, installs it in the virtual environment of the checks, and runs the tests of the
-/// package and the notebooks there.
+/// Builds the wheel, tries it in a clean environment, installs it in that of the checks, and runs the tests of the package
+/// and the notebooks there.
 pub fn tests(root: &Path) -> Ended {
     let python = match python(root) {
         Ok(python) => python,
         Err(problem) => return missing(problem, "the Python package"),
     };
     let install = ["--force-reinstall", "--no-deps"];
-    done(Command::new(&python).args(QUIET).args(install).arg(build(root, &python, &[])?))?;
+    let wheel = build(root, &python, &[])?;
+    done(Command::new(&python).args(QUIET).args(install).arg(&wheel))?;
+    done(Command::new(&python).arg(root.join("tests/python/check_wheel.py")).arg(&wheel))?;
     let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
     let mut package = Command::new(&python);
     package.args(pytest).current_dir(root.join("crates/python"));
@@ -45,7 +47,7 @@ pub fn tests(root: &Path) -> Ended {
         Some(third) => all.into_iter().skip(third).step_by(3).collect(),
         None => all,
     };
-    done(Command::new(&python).args(pytest).arg("--nbmake").args(chosen).current_dir(root))
+    done(Command::new(&python).arg(root.join("tests/python/notebooks.py")).args(chosen))
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
 use creepage::{
-    BenchOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
+    BenchOptions, CasesOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
     ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
     RunOptions, SliderOptions, SweepFound, SweepOptions, VerifyOptions, ViewOptions,
 };
@@ -21,7 +21,7 @@ use crate::report::{self, bench, check, compare, files, mesh, slider};
     version,
     arg_required_else_help = true,
     after_help = "Exit codes: 0 done; 1 a check failed; 2 bad input; 3 stopped by the run's own \
-                  guards; 130 interrupted.\n\nExamples:\n  creepage run cases/quick.toml\n  \
+                  guards; 130 interrupted.\n\nExamples:\n  creepage run quick\n  \
                   creepage mesh cases/quick.toml --out quick.vtu\n  creepage schema > \
                   case.schema.json\n  creepage check runs/quick\n  creepage report runs/quick"
 )]
@@ -57,6 +57,13 @@ pub enum Command {
         minutes, and on Ctrl-C) and leaves the same bits as a run that was not interrupted; on any \
         number of threads, also after kill -9. In a batch script, --resume --force begins the run or goes on with it.")]
     Run(RunOptions),
+    /// List the reference cases, which are part of this program, or copy some to change them
+    #[command(
+        after_help = "Examples:\n  creepage cases\n  creepage run quick\n  creepage sweep kt\n  \
+        creepage cases zhao-li/b-falling --out mine\n  creepage run mine/zhao-li/b-falling.toml\n\nCommands that take \
+        a case or a sweep take these names too; a file of that name goes first."
+    )]
+    Cases(CasesOptions),
     /// Build the mesh of a case: counts, quality, stable step, memory and run-time estimate
     #[command(after_help = "Examples:\n  creepage mesh cases/quick.toml\n  creepage mesh \
         cases/zhao-li/a-coulomb.toml --set mesh.zone.size=0.5e-3 --out fine.vtkhdf")]
@@ -187,6 +194,7 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
     }
     match &line.command {
         Command::Run(options) => crate::run::command(args, options),
+        Command::Cases(options) => done(args, &creepage::cases(options)?, files::cases),
         Command::Mesh(options) => {
             done(args, &creepage::mesh(options, &mut Remarks(args))?, mesh::text)
         }

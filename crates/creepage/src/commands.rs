@@ -2,6 +2,7 @@
 
 mod bench;
 mod case;
+mod cases;
 mod check;
 mod compare;
 mod error;
@@ -23,6 +24,7 @@ mod verify;
 mod view;
 
 pub use bench::{BenchOptions, bench};
+pub use cases::{CasesFound, CasesOptions, ReferenceCase, cases};
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
 pub use error::{

@@ -4,7 +4,23 @@ use std::fmt::Write;
 
 use creepage::check::Imported;
 use creepage::ls_dyna::Account;
-use creepage::{Drawn, ExportedK, ImportedContact, ImportedK, Reported, Viewed};
+use creepage::{CasesFound, Drawn, ExportedK, ImportedContact, ImportedK, Reported, Viewed};
+
+/// The reference cases of `cases`, or the files of their copies.
+pub fn cases(CasesFound { cases, files }: &CasesFound) -> String {
+    if !files.is_empty() {
+        return files.join("\n") + "\n";
+    }
+    let width = cases.iter().map(|case| case.name.len()).max().unwrap_or(0);
+    let mut page = String::new();
+    for command in ["run", "sweep"] {
+        let _ = writeln!(page, "creepage {command} NAME");
+        for case in cases.iter().filter(|case| case.command == command) {
+            let _ = writeln!(page, "  {:<width$}  {}", case.name, case.title);
+        }
+    }
+    page
+}
 
 /// The figures of `plot`.
 pub fn figures(drawn: &Drawn) -> String {

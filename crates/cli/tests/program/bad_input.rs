@@ -81,7 +81,7 @@ fn a_missing_file_and_a_folder_are_no_cases() {
 fn wrong_usage_ends_with_code_2() {
     let (_dir, path) = case(SHORT);
     refused(&["fly"], &["fly"]);
-    refused(&["run"], &["CASE.toml"]);
+    refused(&["run"], &["<CASE>"]);
     refused(&["run", &path, "--threads", "0"], &["--threads", "1 to 1024"]);
     refused(&["run", &path, "--set", "load.normal"], &["KEY=VALUE"]);
     refused(&["run", &path, "--resume"], &["no run to resume", "leave out --resume"]);
@@ -116,7 +116,7 @@ fn with_json_standard_output_is_one_document_also_on_failure() {
 fn with_json_wrong_usage_is_one_document_too() {
     for (args, said) in [
         (&["--json"][..], ""),
-        (&["run", "--json"], "not provided: <CASE.toml>"),
+        (&["run", "--json"], "not provided: <CASE>"),
         (&["mesh", "--json", "--fly"], "'--fly'"),
     ] {
         let output = creepage(args);
@@ -201,6 +201,7 @@ fn help_shows_examples() {
         "import-contact",
         "schema",
         "bench",
+        "cases",
     ] {
         let output = creepage(&[command, "--help"]);
         assert_eq!(output.status.code(), Some(0));

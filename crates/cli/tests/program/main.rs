@@ -4,6 +4,7 @@
 
 mod bad_input;
 mod bench;
+mod cases;
 mod check;
 mod compare;
 mod cost;

@@ -42,7 +42,7 @@ fn the_manual_of_an_unknown_command_is_refused_with_those_that_there_are() {
     let output = creepage(&["man", "walk"]);
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("walk") && said.contains("run, mesh"), "{said}");
+    assert!(said.contains("walk") && said.contains("run, cases, mesh"), "{said}");
 }
 
 #[test]

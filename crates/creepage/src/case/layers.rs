@@ -6,12 +6,12 @@
 use std::path::{Path, PathBuf};
 
 use friction::Declaration;
-use output::files::input::{self, Kind};
 use serde::Deserialize;
 use toml::de::{DeTable, Deserializer};
 use toml::{Table, Value};
 
 use crate::case::error::{CaseError, KeyError};
+use crate::case::file::CaseFile;
 use crate::case::friction_law;
 use crate::case::keys::{self, KEYS};
 use crate::case::places::{Origin, Origins, Places, Source, origins_of};
@@ -34,8 +34,8 @@ impl Layers {
     ///
     /// # Errors
     /// A file that cannot be read, is not well-formed TOML, or extends itself.
-    pub fn read(path: &Path) -> Result<Self, CaseError> {
-        Self::of_chain(path, read_text(path, input::CASE)?, canonical(path))
+    pub fn read(file: &CaseFile) -> Result<Self, CaseError> {
+        Self::of_chain(file.clone(), file.first_text()?, file.canonical())
     }
 
     /// Reads a case from a text, with everything that it extends. `path` names it; `extends` is relative to the
@@ -44,20 +44,21 @@ impl Layers {
     /// # Errors
     /// As those of [`Layers::read`].
     pub fn from_text(text: &str, path: &Path) -> Result<Self, CaseError> {
-        Self::of_chain(path, text.to_owned(), path.to_path_buf())
+        let named = CaseFile::Disk(path.to_path_buf());
+        Self::of_chain(named.clone(), text.to_owned(), named)
     }
 
     /// The layers of a text and of all files that it extends; `first` is its place in the chain.
-    fn of_chain(path: &Path, text: String, first: PathBuf) -> Result<Self, CaseError> {
+    fn of_chain(file: CaseFile, text: String, first: CaseFile) -> Result<Self, CaseError> {
         let mut layers = Self::default();
         let (mut chain, mut written) = (vec![first], Vec::new());
-        let mut file = Some((path.to_path_buf(), text));
-        while let Some((path, text)) = file {
-            let (mut table, mut origins) = layers.parse(Source::file(&path, text))?;
+        let mut next = Some((file, text));
+        while let Some((file, text)) = next {
+            let (mut table, mut origins) = layers.parse(Source::file(file.clone(), text))?;
             let extends = table.remove("extends").zip(origins.remove("extends"));
             written.push((table, origins));
-            file = match extends {
-                Some((base, origin)) => Some(layers.base(&path, &base, &origin, &mut chain)?),
+            next = match extends {
+                Some((base, origin)) => Some(layers.base(&file, &base, &origin, &mut chain)?),
                 None => None,
             };
         }
@@ -67,14 +68,14 @@ impl Layers {
         Ok(layers)
     }
 
-    /// The file that the value `extends` of the file `path` names, and its text.
+    /// The file that the value `extends` of `file` names, and its text.
     fn base(
         &self,
-        path: &Path,
+        file: &CaseFile,
         extends: &Value,
         origin: &Origin,
-        chain: &mut Vec<PathBuf>,
-    ) -> Result<(PathBuf, String), CaseError> {
+        chain: &mut Vec<CaseFile>,
+    ) -> Result<(CaseFile, String), CaseError> {
         let refused = |problem: &str, remedy: &str| {
             let message = format!("extends = {problem}");
             let source = self.places.source(origin);
@@ -86,8 +87,8 @@ impl Layers {
                 "give the path of another case file, relative to this one",
             ));
         };
-        let base = path.parent().unwrap_or(Path::new("")).join(base);
-        if base.canonicalize().is_ok_and(|base| chain.contains(&base)) {
+        let base = file.beside(base);
+        if chain.contains(&base.canonical()) {
             return Err(refused(
                 &format!("{extends} leads back to a file that extends this one"),
                 "end the chain of `extends` at a file that extends nothing",
@@ -99,13 +100,13 @@ impl Layers {
                 &format!("a chain of `extends` may have {LONGEST_CHAIN} files: join some"),
             ));
         }
-        let text = input::text(&base, input::CASE).map_err(|error| {
+        let text = base.text().map_err(|error| {
             refused(
-                &format!("{extends}: {}: {}", base.display(), error.problem()),
+                &format!("{extends}: {base}: {}", error.problem()),
                 &format!("{}; the path is taken relative to this file", error.remedy()),
             )
         })?;
-        chain.push(canonical(&base));
+        chain.push(base.canonical());
         Ok((base, text))
     }
 
@@ -229,22 +230,6 @@ fn malformed(source: &Source, error: &toml::de::Error) -> KeyError {
     let problem = format!("not well-formed TOML at column {column}: {problem}");
     let remedy = "a case file is TOML: sections [in.brackets], lines `key = value`, text in quotes";
     source.unquoted_error(span, "", &problem, remedy)
-}
-
-fn canonical(path: &Path) -> PathBuf {
-    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
-}
-
-/// Reads a file of a kind as UTF-8.
-///
-/// # Errors
-/// A file that is missing, too large for its kind, or not UTF-8.
-fn read_text(path: &Path, kind: Kind) -> Result<String, CaseError> {
-    input::text(path, kind).map_err(|error| CaseError::File {
-        path: path.to_path_buf(),
-        problem: error.problem(),
-        remedy: error.remedy(),
-    })
 }
 
 /// Lays `top` over `base`: tables key by key, everything else whole.

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 use toml::Table;
 
 use crate::case::error::CaseError;
+use crate::case::file::CaseFile;
 use crate::case::layers::Layers;
 use crate::case::left_out::{drop_ramp, keep_meaningful, leave_out};
 use crate::case::schema::{BodyModel, Case, Checkpoint, DriveMode, Guards, Meshing};
@@ -21,8 +22,8 @@ use crate::case::{check, mesh_file, name, table, validation};
 #[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct CaseSource {
-    /// The case file
-    #[cfg_attr(feature = "clap", arg(value_name = "CASE.toml"))]
+    /// The case file, or the name of a reference case: `creepage cases` lists them
+    #[cfg_attr(feature = "clap", arg(value_name = "CASE"))]
     pub path: PathBuf,
     /// Set a key of the case, for example mesh.zone.size=2e-3; may be repeated
     #[cfg_attr(feature = "clap", arg(long = "set", value_name = "KEY=VALUE"))]
@@ -39,6 +40,16 @@ impl<P: AsRef<Path>> From<P> for CaseSource {
     }
 }
 
+impl CaseSource {
+    /// What the path means.
+    pub fn file(&self) -> CaseFile {
+        match self.text {
+            Some(_) => CaseFile::Disk(self.path.clone()),
+            None => CaseFile::named(&self.path),
+        }
+    }
+}
+
 impl Case {
     /// Reads a case file with everything that it extends, lays `sets` (`KEY=VALUE`) over it,
     /// checks it and writes every default out.
@@ -47,7 +58,15 @@ impl Case {
     /// A file that cannot be read, or is not well-formed TOML; keys that are unknown, missing, out of range, or
     /// contradict one another; a mesh file or a friction table that cannot be read.
     pub fn load(path: &Path, sets: &[String]) -> Result<Self, CaseError> {
-        resolve(Layers::read(path)?, path, sets)
+        Self::read(&CaseFile::Disk(path.to_owned()), sets)
+    }
+
+    /// The same for a file or a reference case.
+    ///
+    /// # Errors
+    /// As those of [`Case::load`].
+    pub fn read(file: &CaseFile, sets: &[String]) -> Result<Self, CaseError> {
+        resolve(Layers::read(file)?, &file.path(), sets)
     }
 
     /// The same for a text. `path` gives the case its name, unless the text does; `extends` is relative to the

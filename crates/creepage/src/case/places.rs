@@ -9,6 +9,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::case::error::{Excerpt, KeyError};
+use crate::case::file::CaseFile;
 use crate::case::value::join;
 
 /// Most characters of a message.
@@ -18,15 +19,15 @@ const LONGEST_MESSAGE: usize = 1000;
 #[derive(Clone, Debug)]
 pub struct Source {
     /// The file; none for a `--set` option.
-    pub file: Option<PathBuf>,
+    pub file: Option<CaseFile>,
     /// What it holds.
     pub text: String,
 }
 
 impl Source {
     /// The text of a file.
-    pub fn file(path: &Path, text: String) -> Self {
-        Self { file: Some(path.to_path_buf()), text }
+    pub fn file(file: CaseFile, text: String) -> Self {
+        Self { file: Some(file), text }
     }
 
     /// The text of an option.
@@ -35,7 +36,7 @@ impl Source {
     }
 
     fn name(&self) -> String {
-        self.file.as_ref().map_or("--set".into(), |file| file.display().to_string())
+        self.file.as_ref().map_or("--set".into(), CaseFile::to_string)
     }
 
     /// The error `message` about `key` at `span`, with the line of the text. For texts that are known to be TOML.
@@ -92,16 +93,16 @@ impl Places {
         &self.sources[origin.source]
     }
 
-    /// The files that were read.
+    /// The files on the disk that were read.
     pub fn files(&self) -> impl Iterator<Item = &PathBuf> {
-        self.sources.iter().filter_map(|source| source.file.as_ref())
+        self.sources.iter().filter_map(|source| source.file.as_ref()?.on_disk())
     }
 
     /// The folder that the path in the value of `key` is relative to, and the same in words: that of the case file, or
     /// the working directory for an option.
     pub fn folder_of(&self, key: &str) -> (&Path, &'static str) {
-        let file = self.origins.get(key).and_then(|at| self.source(at).file.as_deref());
-        match file {
+        let file = self.origins.get(key).and_then(|at| self.source(at).file.as_ref());
+        match file.and_then(CaseFile::on_disk) {
             Some(file) => (file.parent().unwrap_or(Path::new("")), "relative to this file"),
             None => (Path::new(""), "relative to the working directory"),
         }
@@ -110,7 +111,7 @@ impl Places {
     /// How high the layer lies that gives `key`, if one does: the file that extends no other lies lowest, and of the
     /// options the last highest.
     pub(crate) fn height(&self, key: &str) -> Option<usize> {
-        let files = self.files().count();
+        let files = self.sources.iter().filter(|source| source.file.is_some()).count();
         let source = self.origins.get(key)?.source;
         // a file is read before the one that it extends
         Some(if source < files { files - 1 - source } else { source })

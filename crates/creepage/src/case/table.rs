@@ -6,6 +6,7 @@ use toml::Value;
 
 use crate::case::column::unit_size;
 use crate::case::error::CaseError;
+use crate::case::file::CaseFile;
 use crate::case::layers::Layers;
 use crate::case::places::Source;
 use crate::case::quantity::rounded;
@@ -38,7 +39,7 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
         )
     })?;
     let points = read(&text).map_err(|Mistake { line, problem, points }| {
-        let source = Source::file(&path, text.clone());
+        let source = Source::file(CaseFile::Disk(path.clone()), text.clone());
         let (span, message) = (line_span(&text, line), format!("{KEY}: {problem}"));
         // A file without a point may be any readable file, also a private one: nothing of it is quoted.
         if points {

@@ -1,6 +1,6 @@
 //! The case that a command computes from, and errors about its keys.
 
-use crate::case::{Case, CaseSource};
+use crate::case::{Case, CaseFile, CaseSource};
 use crate::run::RunError;
 
 use crate::{Error, Listener};
@@ -13,11 +13,20 @@ impl CaseSource {
     pub fn load(&self, listener: &mut dyn Listener) -> Result<Case, Error> {
         let case = match &self.text {
             Some(text) => Case::from_text(text, &self.path, &self.sets)?,
-            None => Case::load(&self.path, &self.sets)?,
+            None => Case::read(&tell(self.file(), listener), &self.sets)?,
         };
         case.warnings().iter().for_each(|warning| listener.remark(&format!("warning: {warning}")));
         Ok(case)
     }
+}
+
+/// Says where the file is a reference case.
+pub(crate) fn tell(file: CaseFile, listener: &mut dyn Listener) -> CaseFile {
+    if let CaseFile::Reference(reference) = file {
+        let name = reference.name;
+        listener.remark(&format!("{file}; for a copy to change: creepage cases {name}"));
+    }
+    file
 }
 
 impl Case {

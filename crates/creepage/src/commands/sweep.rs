@@ -16,6 +16,7 @@ use crate::sweep::{Budget, Plan, Sweep, collect};
 use output::files::made::PLAN;
 use serde::{Deserialize, Serialize};
 
+use crate::commands::case::tell;
 use crate::commands::error::{FAILED, INTERRUPTED};
 use crate::commands::outputs::claim;
 use crate::commands::report::{claim_sweep, write_sweep};
@@ -29,8 +30,8 @@ use crate::{Error, Listener, RunOptions};
 #[serde(deny_unknown_fields, default)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 pub struct SweepOptions {
-    /// The sweep file
-    #[cfg_attr(feature = "clap", arg(value_name = "SWEEP.toml"))]
+    /// The sweep file, or the name of a reference sweep: `creepage cases` lists them
+    #[cfg_attr(feature = "clap", arg(value_name = "SWEEP"))]
     pub sweep: PathBuf,
     /// Folder of the sweep [default: runs/NAME, by the name of the sweep]
     #[cfg_attr(feature = "clap", arg(long, value_name = "DIR"))]
@@ -139,6 +140,7 @@ pub fn sweep(options: &SweepOptions, listener: &mut dyn Listener) -> Result<Swep
     exclude(("--resume", options.resume), &[("--force", options.force)])?;
     exclude(("--plan", options.plan.is_some()), &[("--collect", options.collect.is_some())])?;
     let sweep = options.load()?;
+    tell(sweep.path.clone(), listener);
     let folder = options.out.clone().unwrap_or_else(|| Path::new("runs").join(&sweep.name));
     if let Some(elsewhere) = &options.collect {
         if let Some(missing) = elsewhere.iter().find(|folder| !folder.is_dir()) {

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use toml::{Table, Value};
 
+use crate::case::CaseFile;
 use crate::case::error::{CaseError, KeyError, raise};
 use crate::case::key::Key;
 use crate::case::keys::{self, Place, meant_key, nearest};
@@ -98,9 +99,9 @@ pub struct Sweep {
     /// One line that says what the sweep is for.
     pub title: Option<String>,
     /// The sweep file.
-    pub path: PathBuf,
+    pub path: CaseFile,
     /// The base case's file.
-    pub base: PathBuf,
+    pub base: CaseFile,
     /// How axes are combined.
     pub mode: Mode,
     /// Keys laid over the base for every run: dotted path and value.
@@ -117,14 +118,16 @@ pub struct Sweep {
 }
 
 impl Sweep {
-    /// Reads a sweep file and checks it against itself and the table of keys. The base case is not read.
+    /// Reads a sweep file, or the reference sweep of that name, and checks it against itself and the table of keys. The
+    /// base case is not read.
     ///
     /// # Errors
     /// A file that cannot be read, or its mistakes.
     pub fn load(path: &Path) -> Result<Self, CaseError> {
-        let layers = Layers::read(path)?;
+        let file = CaseFile::named(path);
+        let layers = Layers::read(&file)?;
         let mut reading = Reading { layers: &layers, errors: Vec::new() };
-        let sweep = reading.sweep(path);
+        let sweep = reading.sweep(file);
         raise(reading.errors)?;
         let sweep = Self { layers, ..sweep };
         sweep.check()?;
@@ -136,9 +139,9 @@ impl Sweep {
         let refuse = |at: &str, message: &str, remedy: &str| {
             Err(self.layers.places.error(at, message, remedy).into())
         };
-        if !self.base.is_file() {
+        if self.base.on_disk().is_some_and(|base| !base.is_file()) {
             let shown = get(&self.layers.table, "base").map(show).unwrap_or_default();
-            let message = format!("base = {shown}: there is no file {}", self.base.display());
+            let message = format!("base = {shown}: there is no file {}", self.base);
             return refuse("base", &message, "give the path of a case file, relative to this file");
         }
         let mut taken: Vec<&str> = Vec::new();
@@ -205,7 +208,7 @@ impl Sweep {
     /// table. A mesh file is not among them.
     pub fn inputs(&self) -> Vec<PathBuf> {
         let base = Layers::read(&self.base).map(|layers| layers.files()).unwrap_or_default();
-        self.layers.files().into_iter().chain([self.base.clone()]).chain(base).collect()
+        self.layers.files().into_iter().chain(self.base.on_disk().cloned()).chain(base).collect()
     }
 
     /// Every case key that the file gives: its dotted path in the sweep file, and the key.
@@ -271,13 +274,13 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn sweep(&mut self, path: &Path) -> Sweep {
+    fn sweep(&mut self, file: CaseFile) -> Sweep {
         let layers = self.layers;
         let table = &layers.table;
         self.known("", table, &TOP);
-        let name = self
-            .text(table, "", "name")
-            .unwrap_or_else(|| path.file_stem().unwrap_or_default().to_string_lossy().into_owned());
+        let name = self.text(table, "", "name").unwrap_or_else(|| {
+            file.path().file_stem().unwrap_or_default().to_string_lossy().into_owned()
+        });
         if let Some(message) = name::refused(&name) {
             self.refuse("name", &message, name::REMEDY);
         }
@@ -327,8 +330,8 @@ impl Reading<'_> {
         Sweep {
             name,
             title: self.text(table, "", "title"),
-            path: path.to_path_buf(),
-            base: path.parent().unwrap_or(Path::new("")).join(base),
+            base: file.beside(&base),
+            path: file,
             mode,
             sets,
             axes,

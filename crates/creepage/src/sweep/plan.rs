@@ -239,8 +239,8 @@ pub fn prepare(
     let plan = SweepPlan {
         name: sweep.name.clone(),
         title: sweep.title.clone(),
-        file: sweep.path.display().to_string(),
-        base: sweep.base.display().to_string(),
+        file: sweep.path.to_string(),
+        base: sweep.base.to_string(),
         creepage_version: env!("CARGO_PKG_VERSION").into(),
         hash,
         mode: sweep.mode.word().into(),

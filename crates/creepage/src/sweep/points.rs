@@ -111,13 +111,13 @@ impl Sweep {
         if self.step.is_some() {
             // The rule takes a fraction of the limit, which an absolute step in the base would override.
             let run =
-                Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
+                Case::read(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
             if run.time.step.is_some() {
                 sets.push(format!("time.factor={}", run.default_factor()));
             }
         }
         sets.push(format!("name=\"{name}\""));
-        let case = Case::load(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
+        let case = Case::read(&self.base, &sets).map_err(|error| self.placed(error, &indices))?;
         self.keep_springs(&case)?;
         let parameters =
             chosen.iter().map(|(key, value)| ((*key).to_owned(), (*value).clone())).collect();

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::case::reference::REFERENCES;
 use crate::case::schema::{Creepage, Step};
 use crate::case::{Case, CaseError};
 use crate::sweep::Sweep;
@@ -234,5 +235,18 @@ fn every_sweep_of_the_project_resolves_and_its_runs_have_names_of_their_own() {
         let names: BTreeSet<_> = points.iter().map(|point| &point.name).collect();
         assert_eq!(names.len(), points.len());
         assert!(points.len() >= 4, "{}", path.display());
+    }
+}
+
+#[test]
+fn a_reference_sweep_has_the_runs_of_its_file() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases");
+    let hashes = |path: &Path| -> Vec<String> {
+        let points = Sweep::load(path).unwrap().points().unwrap();
+        points.iter().map(|point| point.case.hash()).collect()
+    };
+    for sweep in REFERENCES.iter().filter(|of| of.is_sweep()) {
+        let held = hashes(Path::new(sweep.name));
+        assert_eq!(held, hashes(&folder.join(sweep.file())), "{}", sweep.name);
     }
 }

@@ -1,4 +1,4 @@
-"""The command line: ``python -m creepage run CASE.toml``."""
+"""The command line: ``python -m creepage run CASE``."""
 
 import signal
 import sys

@@ -29,7 +29,8 @@ def run(
     """Run a case and return its results.
 
     Args:
-        case: path of a case file, or a dict of its keys (sections as dicts, or dotted keys).
+        case: path of a case file, name of a reference case (``creepage cases``), or a dict of keys (sections as dicts, or
+            dotted keys).
         out: folder of the run [default: runs/NAME].
         threads: number of threads [default: one per core]. The bits do not depend on it.
         resume: go on from the run's last checkpoint; a complete run is left alone.

@@ -4,6 +4,7 @@ mod any_input;
 mod creepage;
 mod half_space;
 mod materials;
+mod reference;
 mod refusals;
 mod schema;
 

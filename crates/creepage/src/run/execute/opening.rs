@@ -100,7 +100,7 @@ fn log_opening(
         "creepage {}: {} from {}",
         env!("CARGO_PKG_VERSION"),
         case.name,
-        options.case.path.display()
+        options.case.file()
     ))?;
     if let Some(why) = why {
         log.warn(&format!("nothing to go on from, the run begins at its start: {why}"))?;
