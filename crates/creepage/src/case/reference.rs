@@ -32,7 +32,7 @@ pub static REFERENCES: &[Reference] = references![
     "verdict/slice" "verdict/falling" "verdict/space"
     "half-space/line" "half-space/line-falling" "half-space/mindlin"
     "sweeps/base" "sweeps/base-large"
-    "sweeps/tutorial" "sweeps/kt" "sweeps/dt" "sweeps/mesh" "sweeps/law" "sweeps/exact-damping"
+    "sweeps/penalty-limit" "sweeps/tutorial" "sweeps/kt" "sweeps/dt" "sweeps/mesh" "sweeps/law" "sweeps/exact-damping"
     "sweeps/creep-curve" "sweeps/creep-curve-half-space" "sweeps/creep-curve-quasi-static"
     "sweeps/kt-large" "sweeps/dt-large" "sweeps/mesh-large" "sweeps/law-large"
 ];
