@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod commands;
+mod contact;
 mod files;
 mod held;
 mod law;
@@ -23,7 +24,11 @@ mod _creepage {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, view};
+    use crate::commands::{
+        check, import_k, interface_of_k, main, mesh, plot, report, run, schema, slider, sweep, view,
+    };
+    #[pymodule_export]
+    use crate::contact::ContactWriter;
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

@@ -1,0 +1,248 @@
+//! What results of a keyword file refer to: the two surfaces of its contact, the nodes on them, and friction. Any model
+//! will do whose contact is between segments or parts of solids: materials, loads and motions are not read.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use mesh::geometry::vector_area;
+use mesh::import::Foreign;
+use mesh::{outer_faces, quad_corner_areas};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+use crate::ls_dyna::cards::Card;
+use crate::ls_dyna::contact_card::{self, Sliding};
+use crate::ls_dyna::deck::{Deck, Side};
+use crate::ls_dyna::error::{DeckError, DeckLine, lacks, second, syntax, unknown};
+use crate::ls_dyna::fields::{Layout, absent, number, whole};
+use crate::ls_dyna::model::{Indices, take_nodes, take_solids};
+use crate::ls_dyna::parameters::Parameters;
+use crate::ls_dyna::sources::{Source, Sources};
+use crate::ls_dyna::units::Units;
+
+/// The contact of a keyword file, in SI units.
+#[derive(Clone, Debug, Serialize)]
+pub struct Interface {
+    /// Numbers that the nodes of both surfaces have in the file.
+    pub nodes: Vec<u64>,
+    /// Where they are (m).
+    pub points: Vec<[f64; 3]>,
+    /// Their tributary areas, undeformed (m2).
+    pub areas: Vec<f64>,
+    /// Faces of wheel and rail by their nodes, counter-clockwise seen from outside.
+    pub faces: [Vec<[u32; 4]>; 2],
+    /// Nodes that the file holds along y, as on a plane of symmetry.
+    pub held: Vec<u32>,
+    /// FS, FD and DC (s/m); none where the card of the contact does not give them.
+    pub friction: Option<[f64; 3]>,
+    /// When initial velocities are given (s); 0 where the file does not say.
+    pub begins: f64,
+    /// The file's units of length (m), mass (kg) and time (s).
+    pub units: [f64; 3],
+}
+
+/// Contacts that are read; `_ID` and `_TITLE` may follow.
+const CONTACTS: [&str; 5] = [
+    "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
+    "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+    "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MORTAR",
+    "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
+    "CONTACT_SURFACE_TO_SURFACE",
+];
+
+const HELD: Layout<2> = Layout::new(&[
+    number("NSID or NID"),
+    absent("CID"),
+    absent("DOFX"),
+    whole("DOFY"),
+    absent("DOFZ"),
+    absent("DOFRX"),
+    absent("DOFRY"),
+    absent("DOFRZ"),
+]);
+
+/// Reads the contact of a deck in consistent `units`. `sides` are the numbers that wheel and rail have on its card; where
+/// neither is given the wheel is the upper one, along z.
+///
+/// # Errors
+/// A file that cannot be read or must not be included; a deck with no such contact or with several; sides that are not
+/// there.
+pub fn interface(
+    source: &Source,
+    units: Units,
+    sides: [Option<u64>; 2],
+) -> Result<Interface, DeckError> {
+    let sources = Sources::read(source)?;
+    let cards = sources.cards()?;
+    let parameters = Parameters::of(&cards)?;
+    let mut reading = Reading::default();
+    for card in cards {
+        reading.card(&card.with(&parameters))?;
+    }
+    let Reading { deck, contacts, held } = reading;
+    deck.names(units)?;
+    let contact = chosen(&contacts, sides)?;
+    let mut foreign = Foreign::default();
+    let indices = take_nodes(&deck, units, &mut foreign)?;
+    take_solids(&deck, &indices, &mut foreign)?;
+    let skin = Skin { deck: &deck, foreign: &foreign, indices: &indices };
+    let [first, other] = contact.sides;
+    let mut faces = [skin.side(first, &contact.place)?, skin.side(other, &contact.place)?];
+    let turned = match sides {
+        [Some(wheel), _] => number_of(first) != wheel,
+        [None, Some(rail)] => number_of(other) != rail,
+        [None, None] => skin.height(&faces[0]) < skin.height(&faces[1]),
+    };
+    if turned {
+        faces.swap(0, 1);
+    }
+    let mut area = vec![0.0; foreign.points.len()];
+    for face in faces.iter().flatten() {
+        let shares = quad_corner_areas(&face.map(|n| foreign.points[n as usize]));
+        face.iter().zip(shares).for_each(|(&n, share)| area[n as usize] += share);
+    }
+    let kept: BTreeSet<u32> = faces.iter().flatten().flatten().copied().collect();
+    let row: HashMap<u32, u32> = kept.iter().copied().zip(0..).collect();
+    let held: BTreeSet<u64> = held
+        .iter()
+        .flat_map(|(set, id)| match set {
+            true => deck.node_sets.get(id).cloned().unwrap_or_default(),
+            false => vec![*id],
+        })
+        .collect();
+    let nodes: Vec<u64> = kept.iter().map(|&n| foreign.nodes.ids[n as usize]).collect();
+    let velocity = units.velocity();
+    Ok(Interface {
+        held: (0..).zip(&nodes).filter(|(_, id)| held.contains(id)).map(|(row, _)| row).collect(),
+        nodes,
+        areas: kept.iter().map(|&n| area[n as usize]).collect(),
+        points: kept.iter().map(|&n| foreign.points[n as usize].into()).collect(),
+        faces: faces.map(|side| side.into_iter().map(|face| face.map(|n| row[&n])).collect()),
+        friction: contact.friction.map(|[fs, fd, dc]| [fs, fd, dc / velocity]),
+        begins: deck.begins * units.time(),
+        units: [units.length(), units.mass(), units.time()],
+    })
+}
+
+/// The cards that count.
+#[derive(Default)]
+struct Reading {
+    deck: Deck,
+    contacts: Vec<Sliding>,
+    /// Nodes held along y: whether it is a set, and its number.
+    held: Vec<(bool, u64)>,
+}
+
+impl Reading {
+    fn card(&mut self, card: &Card) -> Result<(), DeckError> {
+        match card.name.as_str() {
+            "NODE" | "ELEMENT_SOLID" => drop(self.deck.body_card(card)?),
+            "CONTROL_UNITS" => drop(self.deck.control_card(card)?),
+            "INITIAL_VELOCITY_GENERATION_START_TIME" => drop(self.deck.motion_card(card)?),
+            "BOUNDARY_SPC_SET" | "BOUNDARY_SPC_NODE" => {
+                for line in card.lines() {
+                    let [id, y] = line.take(&HELD)?;
+                    if y == 1.0 {
+                        self.held.push((card.name.ends_with("SET"), id as u64));
+                    }
+                }
+            }
+            name if name.starts_with("SET_") => drop(self.deck.set_card(card)?),
+            name if CONTACTS.contains(&name) => self.contacts.push(contact_card::sliding(card)?),
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+/// The contact that has these sides.
+fn chosen(contacts: &[Sliding], sides: [Option<u64>; 2]) -> Result<&Sliding, DeckError> {
+    let has = |contact: &Sliding, id| contact.sides.iter().any(|side| number_of(*side) == id);
+    let fits = |contact: &&Sliding| sides.iter().flatten().all(|id| has(contact, *id));
+    let mut fitting = contacts.iter().filter(fits);
+    let Some(contact) = fitting.next() else {
+        return Err(match (contacts.first(), sides.iter().flatten().next()) {
+            (Some(contact), Some(side)) => {
+                unknown(&contact.place, "what was asked for", format!("a contact with side {side}"))
+            }
+            _ => lacks("*CONTACT_SURFACE_TO_SURFACE, _AUTOMATIC_, _ONE_WAY_ or _MORTAR"),
+        });
+    };
+    let remedy = "name the surfaces, with --wheel and --rail: their numbers on the card";
+    match fitting.next() {
+        Some(next) => Err(second(&next.place, "contact", &contact.place, remedy)),
+        None => Ok(contact),
+    }
+}
+
+fn number_of(side: Side) -> u64 {
+    match side {
+        Side::Segments(id) | Side::Part(id) | Side::PartSet(id) => id,
+    }
+}
+
+/// The outer faces of a deck's solids.
+struct Skin<'a> {
+    deck: &'a Deck,
+    foreign: &'a Foreign,
+    indices: &'a Indices,
+}
+
+impl Skin<'_> {
+    /// The faces of a side of the contact, seen from outside; segments of a set may stand either way.
+    fn side(&self, side: Side, at: &DeckLine) -> Result<Vec<[u32; 4]>, DeckError> {
+        let missing = |what: &str, id| unknown(at, "the contact", format!("{what} {id}"));
+        let faces: Vec<[u32; 4]> = match side {
+            Side::Segments(id) => {
+                let segments = self.deck.segment_sets.get(&id);
+                let outer: BTreeMap<[u32; 4], [u32; 4]> =
+                    self.outer(|_| true).into_iter().map(|face| (sorted(face), face)).collect();
+                let name = format!("segment set {id}");
+                let find = |node: u64| self.indices.find(&name, node, at);
+                let face = |[a, b, c, d]: &[u64; 4]| {
+                    let face = [find(*a)?, find(*b)?, find(*c)?, find(*d)?];
+                    Ok(outer.get(&sorted(face)).copied().unwrap_or(face))
+                };
+                let segments = segments.ok_or_else(|| missing("segment set", id))?;
+                segments.iter().map(face).collect::<Result<_, DeckError>>()?
+            }
+            Side::Part(id) => self.outer(|part| part == id),
+            Side::PartSet(id) => {
+                let parts = self.deck.part_sets.get(&id).ok_or_else(|| missing("part set", id))?;
+                self.outer(|part| parts.contains(&part))
+            }
+        };
+        if faces.is_empty() {
+            return Err(syntax(
+                at,
+                format!("side {} of the contact has no faces", number_of(side)),
+            ));
+        }
+        Ok(faces)
+    }
+
+    /// The outer faces of the solids of some parts. A deck may number elements inside out.
+    fn outer(&self, of: impl Fn(u64) -> bool) -> Vec<[u32; 4]> {
+        let Foreign { points, hexes, .. } = self.foreign;
+        let mean = |nodes: &[u32]| {
+            nodes.iter().map(|&n| points[n as usize]).sum::<Vector3<f64>>() / nodes.len() as f64
+        };
+        let outward = |(element, [a, b, c, d]): (usize, [u32; 4])| {
+            let normal = vector_area([a, b, c, d].map(|n| points[n as usize]));
+            let out = mean(&[a, b, c, d]) - mean(&hexes[element]);
+            if normal.dot(&out) < 0.0 { [d, c, b, a] } else { [a, b, c, d] }
+        };
+        let solids = &self.deck.solids;
+        outer_faces(hexes, |e| of(solids[e].part)).into_iter().map(outward).collect()
+    }
+
+    /// Mean height of faces (m).
+    fn height(&self, faces: &[[u32; 4]]) -> f64 {
+        let nodes = faces.as_flattened();
+        nodes.iter().map(|&n| self.foreign.points[n as usize].z).sum::<f64>() / nodes.len() as f64
+    }
+}
+
+fn sorted(mut face: [u32; 4]) -> [u32; 4] {
+    face.sort_unstable();
+    face
+}
