@@ -20,8 +20,7 @@ pub struct ContactWriter(ContactOfForces);
 
 #[pymethods]
 impl ContactWriter {
-    /// A file of the nodes at `points` (m) with `areas` (m2), and of `faces` with their `body` (0 disk, 1 bar); `held` are the
-    /// nodes on a plane of symmetry along x and z.
+    /// A file of the nodes at `points` (m) with `areas` (m2), and of `faces` with their `body` (0 disk, 1 bar).
     #[new]
     fn create(
         path: PathBuf,
@@ -29,7 +28,6 @@ impl ContactWriter {
         areas: PyReadonlyArray1<'_, f64>,
         faces: Vec<[u32; 4]>,
         bodies: Vec<u8>,
-        held: Vec<u32>,
     ) -> PyResult<Self> {
         let points: Vec<_> =
             points.as_slice()?.as_chunks::<3>().0.iter().map(|x| (*x).into()).collect();
@@ -41,7 +39,7 @@ impl ContactWriter {
         }
         let area = areas.as_slice()?.to_vec();
         let surface = Surface { points, faces, face_body: bodies, body, area };
-        Ok(Self(ContactOfForces::create(&path, surface, &held).map_err(failed)?))
+        Ok(Self(ContactOfForces::create(&path, surface).map_err(failed)?))
     }
 
     /// Appends a record: the time (s), and of each node the force (N), the velocity (m/s) and the displacement (m), flat.

@@ -3,12 +3,14 @@
 import json
 import re
 import shutil
+import subprocess
+import sys
 
 import creepage
 import h5py
 import numpy as np
 import pytest
-from creepage import _creepage, _lsdyna_command
+from creepage import _lsdyna_command
 
 import binout
 from conftest import SMALL
@@ -23,12 +25,15 @@ SECOND = 3
 @pytest.fixture(scope="module")
 def there(tmp_path_factory):
     """A run, and the folder in which LS-DYNA would have computed it: its deck, and when it rolls there."""
-    folder = tmp_path_factory.mktemp("lsdyna")
-    run = creepage.run(SMALL, folder / "run", threads=1, **KEYS)
-    sets = [word for key, value in KEYS.items() for word in ("--set", f"{key}={value}")]
+    return computed(tmp_path_factory.mktemp("lsdyna"), KEYS)
+
+
+def computed(folder, keys):
+    run = creepage.run(SMALL, folder / "run", threads=1, **keys)
+    sets = [word for key, value in keys.items() for word in ("--set", f"{key}={json.dumps(value)}")]
     deck = folder / "there" / "deck.k"
     deck.parent.mkdir()
-    assert _creepage.main(["creepage", "export-k", str(SMALL), *sets, "--out", str(deck), "-q"]) == 0
+    subprocess.run([sys.executable, "-m", "creepage", "export-k", SMALL, *sets, "--out", deck, "-q"], check=True)
     begins = re.search(r"START_TIME\n\$.*\n *(\S+)", deck.read_text())
     return run, deck, float(begins[1])
 
@@ -130,6 +135,31 @@ def test_other_files_orders_and_missing_states_change_nothing_else(there, import
     assert np.allclose(found["slip_velocity"][:], imported.contact["slip_velocity"][:][kept], rtol=0, atol=1e-9)
 
 
+def test_forces_on_the_other_body_are_turned_over(there, imported, tmp_path):
+    run, deck, begins = there
+    binout.write(run, deck, tmp_path, begins=begins, turned=["master_1"])
+    document = _lsdyna_command.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    assert document["notes"][1:] == ["the forces of ncforc/master_1 pull: they were taken as those on the other body"]
+    assert np.array_equal(creepage.Run(tmp_path / "out").contact["shear"][:], imported.contact["shear"][:])
+
+
+def test_half_a_model_becomes_the_whole(tmp_path):
+    run, deck, begins = computed(tmp_path, {**KEYS, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
+    binout.write(run, deck, deck.parent, begins=begins)
+    whole = creepage.from_lsdyna(deck.parent, out=tmp_path / "imported").contact
+    assert len(whole.points) == len(run.contact.points)
+    for mine, theirs in [(whole.disk, run.contact.disk), (whole.bar, run.contact.bar)]:
+        order = [np.argmin(np.linalg.norm(theirs.points - point, axis=1)) for point in mine.points]
+        assert np.allclose(mine.points, theirs.points[order], rtol=0, atol=1e-10)
+        assert np.allclose(mine["area"][:], theirs["area"][:][order], rtol=1e-8)
+        for name in ("velocity", "displacement"):
+            assert np.allclose(mine[name][-1], theirs[name][-1][order], rtol=1e-12, atol=1e-18)
+        most = theirs["pressure"][-1].max()
+        # to what lies between the normals of both surfaces
+        assert np.allclose(mine["pressure"][-1], theirs["pressure"][-1][order], rtol=0, atol=5e-3 * most)
+        assert np.allclose(mine["shear"][-1], theirs["shear"][-1][order], rtol=0, atol=5e-3 * most)
+
+
 def test_numbers_of_four_bytes_keep_their_digits(there, imported, tmp_path):
     run, deck, begins = there
     binout.write(run, deck, tmp_path, begins=begins, real="R4")
@@ -203,6 +233,6 @@ def test_the_contact_of_any_model_is_judged_by_its_own_friction(there, imported,
 
 
 def test_without_lasso_a_line_says_what_to_install(there, capsys, monkeypatch, tmp_path):
-    monkeypatch.setitem(__import__("sys").modules, "lasso.dyna.lsda_py3", None)
+    monkeypatch.setitem(sys.modules, "lasso.dyna.lsda_py3", None)
     line = refused(capsys, there[1].parent, "--out", tmp_path / "out")
     assert 'pip install "creepage[lsdyna]"' in line

@@ -236,8 +236,7 @@ impl Evaluation<'_> {
         if !of_bodies.is_empty() {
             return of_bodies;
         }
-        let stateless =
-            measure == Measure::ViolatingFractionSlipState && !self.history.has.state;
+        let stateless = measure == Measure::ViolatingFractionSlipState && !self.history.has.state;
         let of = |channel: &Channel| {
             let found = channel.accumulator.statistic(measure);
             let value = found.value.filter(|_| !stateless);

@@ -15,8 +15,6 @@ use std::path::Path;
 pub struct ContactOfForces {
     file: TransientGrid,
     surface: Surface,
-    /// Whether each node lies on a plane of symmetry along x and z.
-    on_plane: Vec<bool>,
     /// The nodes of each body over the faces of the other.
     pairs: [Pair; 2],
 }
@@ -33,11 +31,11 @@ pub struct NodalForces<'a> {
 }
 
 impl ContactOfForces {
-    /// Begins the file, replacing what is there; the nodes `held` lie on a plane of symmetry along x and z.
+    /// Begins the file, replacing what is there.
     ///
     /// # Errors
     /// A surface without faces, or with nodes that it does not have; a file that cannot be written.
-    pub fn create(path: &Path, surface: Surface, held: &[u32]) -> Result<Self, OutputError> {
+    pub fn create(path: &Path, surface: Surface) -> Result<Self, OutputError> {
         let specs: Vec<FieldSpec> = [
             &CONTACT.pressure,
             &CONTACT.shear,
@@ -52,9 +50,8 @@ impl ContactOfForces {
         let cells = Cells::Quads(&surface.faces);
         let grid = GridSpec { points: &points, cells, constant: &constant };
         let file = TransientGrid::create(path, &grid, &specs, &imported())?;
-        let on_plane = (0..points.len() as u32).map(|n| held.contains(&n)).collect();
         let pairs = [0, 1].map(|body| Pair::over_convex_edges(&surface, body));
-        Ok(Self { file, surface, on_plane, pairs })
+        Ok(Self { file, surface, pairs })
     }
 
     /// Appends a record; returns how many nodes bear a force but have no projection: they are left out, as open ones.
@@ -62,7 +59,7 @@ impl ContactOfForces {
     /// # Errors
     /// Values of another number than the nodes; a file that cannot be written.
     pub fn append(&mut self, time: f64, record: &NodalForces) -> Result<usize, OutputError> {
-        let Self { file, surface, on_plane, pairs } = self;
+        let Self { file, surface, pairs } = self;
         let vectors = |rows: &[[f64; 3]]| rows.iter().copied().map(Vector3::from).collect();
         let motion: [Vec<Vector3<f64>>; 2] = [record.displacement, record.velocity].map(vectors);
         let count = surface.points.len();
@@ -78,22 +75,15 @@ impl ContactOfForces {
             let rows: Vec<usize> = (0..count.min(record.force.len())).filter(bears).collect();
             let slips = pairs[body].slip(surface, &motion, &rows);
             for (row, relative) in rows.into_iter().zip(slips) {
-                let Some(mut relative) = relative else {
+                let Some(relative) = relative else {
                     lost += 1;
                     continue;
                 };
                 // the pair of the other body has the faces of this one
-                let mut normal = *pairs[1 - body].normal(surface, &motion[0], row as u32);
-                let mut traction = Vector3::from(record.force[row]) / surface.area[row];
-                if on_plane[row] {
-                    // what loads it from one side loads it from the other
-                    for vector in [&mut normal, &mut traction, &mut relative] {
-                        vector.y = 0.0;
-                    }
-                    normal.normalize_mut();
-                }
+                let normal = pairs[1 - body].normal(surface, &motion[0], row as u32);
+                let traction = Vector3::from(record.force[row]) / surface.area[row];
                 pressure[row] = -traction.dot(&normal);
-                shear[row] = (traction + pressure[row] * normal).into();
+                shear[row] = (traction + pressure[row] * *normal).into();
                 slip[row] = relative.into();
             }
         }

@@ -22,16 +22,19 @@ use crate::ls_dyna::units::Units;
 /// The contact of a keyword file, in SI units.
 #[derive(Clone, Debug, Serialize)]
 pub struct Interface {
-    /// Numbers that the nodes of both surfaces have in the file.
+    /// Numbers that the nodes of both surfaces have in the file. Where the file has half of a symmetric model, their mirror
+    /// images follow them.
     pub nodes: Vec<u64>,
+    /// How many of them are such images.
+    pub images: usize,
+    /// The nodes on the plane of symmetry, as indices.
+    pub on_plane: Vec<u32>,
     /// Where they are (m).
     pub points: Vec<[f64; 3]>,
     /// Their tributary areas, undeformed (m2).
     pub areas: Vec<f64>,
     /// Faces of wheel and rail by their nodes, counter-clockwise seen from outside.
     pub faces: [Vec<[u32; 4]>; 2],
-    /// Nodes that the file holds along y, as on a plane of symmetry.
-    pub held: Vec<u32>,
     /// FS, FD and DC (s/m); none where the card of the contact does not give them.
     pub friction: Option<[f64; 3]>,
     /// When initial velocities are given (s); 0 where the file does not say.
@@ -95,32 +98,71 @@ pub fn interface(
     if turned {
         faces.swap(0, 1);
     }
-    let mut area = vec![0.0; foreign.points.len()];
-    for face in faces.iter().flatten() {
-        let shares = quad_corner_areas(&face.map(|n| foreign.points[n as usize]));
-        face.iter().zip(shares).for_each(|(&n, share)| area[n as usize] += share);
-    }
     let kept: BTreeSet<u32> = faces.iter().flatten().flatten().copied().collect();
     let row: HashMap<u32, u32> = kept.iter().copied().zip(0..).collect();
-    let held: BTreeSet<u64> = held
-        .iter()
-        .flat_map(|(set, id)| match set {
-            true => deck.node_sets.get(id).cloned().unwrap_or_default(),
-            false => vec![*id],
-        })
-        .collect();
-    let nodes: Vec<u64> = kept.iter().map(|&n| foreign.nodes.ids[n as usize]).collect();
     let velocity = units.velocity();
-    Ok(Interface {
-        held: (0..).zip(&nodes).filter(|(_, id)| held.contains(id)).map(|(row, _)| row).collect(),
-        nodes,
-        areas: kept.iter().map(|&n| area[n as usize]).collect(),
+    let mut found = Interface {
+        nodes: kept.iter().map(|&n| foreign.nodes.ids[n as usize]).collect(),
+        images: 0,
+        on_plane: Vec::new(),
         points: kept.iter().map(|&n| foreign.points[n as usize].into()).collect(),
+        areas: vec![0.0; kept.len()],
         faces: faces.map(|side| side.into_iter().map(|face| face.map(|n| row[&n])).collect()),
         friction: contact.friction.map(|[fs, fd, dc]| [fs, fd, dc / velocity]),
         begins: deck.begins * units.time(),
         units: [units.length(), units.mass(), units.time()],
-    })
+    };
+    let of_set = |id| deck.node_sets.get(id).into_iter().flatten();
+    let alone = held.iter().filter(|(set, _)| !set).map(|(_, id)| id);
+    let sets = held.iter().filter(|(set, _)| *set).flat_map(|(_, id)| of_set(id));
+    found.complete(&alone.chain(sets).copied().collect());
+    Ok(found)
+}
+
+/// Distance (m) below which places are the same: less than a file prints.
+const SAME: f64 = 1e-9;
+
+impl Interface {
+    /// Adds mirror images, if the nodes that are `held` along y are those of a plane that ends the surfaces, and areas.
+    fn complete(&mut self, held: &BTreeSet<u64>) {
+        let on_plane: Vec<u32> =
+            (0..).zip(&self.nodes).filter(|(_, id)| held.contains(id)).map(|(n, _)| n).collect();
+        if let Some(&first) = on_plane.first() {
+            let plane = self.points[first as usize][1];
+            let beyond: Vec<f64> = self.points.iter().map(|x| x[1] - plane).collect();
+            let one_side = |sign: f64| beyond.iter().all(|y| sign * y > -SAME);
+            let flat = on_plane.iter().all(|&n| beyond[n as usize].abs() < SAME);
+            if flat && on_plane.len() < beyond.len() && (one_side(1.0) || one_side(-1.0)) {
+                self.mirror(plane, on_plane);
+            }
+        }
+        self.areas = vec![0.0; self.points.len()];
+        for face in self.faces.iter().flatten() {
+            let corners = face.map(|n| Vector3::from(self.points[n as usize]));
+            let shares = quad_corner_areas(&corners);
+            face.iter().zip(shares).for_each(|(&n, share)| self.areas[n as usize] += share);
+        }
+    }
+
+    /// Adds the mirror images in the plane y = `plane` of all nodes but those on it.
+    fn mirror(&mut self, plane: f64, on_plane: Vec<u32>) {
+        let count = self.nodes.len() as u32;
+        let off: Vec<u32> = (0..count).filter(|n| on_plane.binary_search(n).is_err()).collect();
+        let image: HashMap<u32, u32> = off.iter().copied().zip(count..).collect();
+        for &n in &off {
+            self.nodes.push(self.nodes[n as usize]);
+            let [x, y, z] = self.points[n as usize];
+            self.points.push([x, 2.0 * plane - y, z]);
+        }
+        for side in &mut self.faces {
+            let mirrored = |&[a, b, c, d]: &[u32; 4]| {
+                [d, c, b, a].map(|n| image.get(&n).copied().unwrap_or(n))
+            };
+            let images: Vec<_> = side.iter().map(mirrored).collect();
+            side.extend(images);
+        }
+        (self.images, self.on_plane) = (off.len(), on_plane);
+    }
 }
 
 /// The cards that count.

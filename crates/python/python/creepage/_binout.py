@@ -76,12 +76,16 @@ class Table:
         if metadata is None:
             refuse(f"binout holds no metadata of {name}", ANEW)
         self.name, self.ids = name, values(metadata, "ids", name).astype(np.int64)
-        states = {key: state for key, state in folder.children.items() if key != "metadata"}
-        self.states = {float(values(state, "time", f"{name}/{key}")[0]): (key, state) for key, state in states.items()}
+        # states by their times in single precision, which some databases have and others do not
+        self.states = {}
+        for key, state in folder.children.items():
+            if key != "metadata":
+                time = float(values(state, "time", f"{name}/{key}")[0])
+                self.states[float(np.float32(time))] = key, state, time
 
     def vectors(self, time, *quantities):
         """Quantities such as velocity at a time: for each an array of rows x, y, z."""
-        key, state = self.states[time]
+        key, state, _ = self.states[time]
         where = f"{self.name}/{key}"
         parts = ([values(state, f"{axis}_{quantity}", where) for axis in "xyz"] for quantity in quantities)
         found = [np.stack(part, axis=1).astype(float) for part in parts]

@@ -51,13 +51,14 @@ def imported(folder, deck, out, options, scales) -> dict:
     times, counts = common(sides, motion, contact["begins"] / contact["units"][2])
     out.mkdir(parents=True, exist_ok=True)
     notes = write_case(out, deck, options, contact, scales)
-    lost = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
+    lost, turned = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
+    notes += [f"the forces of {name} pull: they were taken as those on the other body" for name in turned]
     return {
         "run": str(out),
         "deck": str(deck),
         "nodes": [int(np.sum(nodes.body == body)) for body in range(2)],
         "records": len(times),
-        "time": [nodes.time(contact, t) for t in (times[0], times[-1])],
+        "time": [since(contact, motion, t) for t in (times[0], times[-1])],
         **counts,
         "without_projection": lost,
         "notes": notes,
@@ -85,35 +86,41 @@ class Nodes:
             missing = ids[np.setdiff1d(np.ravel(every), np.flatnonzero(recorded))]
             if not len(side):
                 refuse(f"nodout lacks the nodes of the {name}, such as {missing[0]}", f"add {_binout.CARDS['nodout']}")
-        kept = np.unique(np.concatenate([side.ravel() for side in faces]))
+        # those of the wheel come first
+        kept = np.concatenate([np.unique(side) for side in faces])
         row = np.full(len(ids), -1)
         row[kept] = np.arange(len(kept))
         self.ids, self.kept = ids[kept], kept
         self.faces = np.concatenate([row[side] for side in faces])
         self.face_body = np.repeat([0, 1], [len(side) for side in faces])
-        self.body = np.zeros(len(kept), int)
-        self.body[row[faces[1].ravel()]] = 1
-        self.held = row[[n for n in contact["held"] if row[n] >= 0]]
-        order = np.argsort(motion.ids)
-        self.of_motion = order[np.searchsorted(motion.ids, self.ids, sorter=order)]
-        self.of_sides = [self.places(side.ids) for side in sides]
-        surface = np.isin(ids, self.ids)
-        self.outside = [np.isin(side.ids, ids[~surface]) for side in sides]
+        self.body = np.repeat([0, 1], [len(np.unique(side)) for side in faces])
+        # the rows of mirror images, and of nodes on the plane between, whose images bear the same force
+        self.image = kept >= len(ids) - contact["images"]
+        self.on_plane = row[[n for n in contact["on_plane"] if row[n] >= 0]]
+        self.of_motion = places(motion.ids, self.ids)[1]
+        self.of_sides = [places(side.ids, self.ids) for side in sides]
+        self.unrecorded = [np.isin(side.ids, np.setdiff1d(ids, self.ids)) for side in sides]
         for body, name in enumerate(SIDES):
-            if not any(np.any(self.body[mine] == body) for _, mine in self.of_sides):
+            if not any(np.any(known[self.body == body]) for known, _ in self.of_sides):
                 refuse(f"ncforc has no node of the {name}", f"add {_binout.CARDS['ncforc']}, and run the deck again")
 
-    def places(self, ids):
-        """Which of these nodes are known here, and the rows of those."""
-        order = np.argsort(self.ids)
-        place = np.minimum(np.searchsorted(self.ids, ids, sorter=order), len(order) - 1)
-        known = self.ids[order[place]] == ids
-        return known, order[place][known]
+    def mirrored(self, vectors):
+        """Vectors of all nodes, those of the images turned over."""
+        vectors[self.image, 1] *= -1
+        return vectors
 
-    @staticmethod
-    def time(contact, t):
-        """A time of the deck as that of the run (s), which begins with the initial velocities."""
-        return max(0.0, t * contact["units"][2] - contact["begins"])
+
+def since(contact, motion, time) -> float:
+    """A time of the databases as that of the run (s), which begins with the initial velocities."""
+    return max(0.0, motion.states[time][2] * contact["units"][2] - contact["begins"])
+
+
+def places(there, wanted):
+    """Which of the wanted numbers are there, and where those stand."""
+    order = np.argsort(there, kind="stable")
+    place = np.minimum(np.searchsorted(there, wanted, sorter=order), len(order) - 1)
+    known = there[order[place]] == wanted
+    return known, order[place][known]
 
 
 def common(sides, motion, begins):
@@ -129,30 +136,60 @@ def common(sides, motion, begins):
     return times, {"unmatched": len(anywhere - everywhere), "earlier": len(everywhere) - len(times)}
 
 
-def write_contact(path, contact, nodes, sides, motion, times) -> int:
-    """Writes the history; returns how many times a node with a force had no projection."""
+def write_contact(path, contact, nodes, sides, motion, times):
+    """Writes the history; returns how many times a node with a force had no projection, and which sides were turned over."""
     length, mass, second = contact["units"]
     points, areas = np.array(contact["points"])[nodes.kept], np.array(contact["areas"])[nodes.kept]
-    faces, bodies, held = nodes.faces.tolist(), nodes.face_body.tolist(), nodes.held.tolist()
-    writer = _creepage.ContactWriter(path, points, areas, faces, bodies, held)
-    lost, touched = 0, False
+    turn_over = senses(nodes, points, sides, motion, times, length)
+    writer = _creepage.ContactWriter(path, points, areas, nodes.faces.tolist(), nodes.face_body.tolist())
+    lost = 0
     for time in times:
-        force = np.zeros((len(nodes.ids), 3))
-        for side, (known, rows), outside in zip(sides, nodes.of_sides, nodes.outside):
-            (found,) = side.vectors(time, "force")
-            missing = side.ids[outside & found.any(axis=1)]
-            if len(missing):
-                more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-                refuse(f"nodout lacks node {missing[0]}{more}, which bears a contact force", f"add {_binout.CARDS['nodout']}")
-            np.add.at(force, rows, found[known])
-        velocity, displacement = motion.vectors(time, "velocity", "displacement")
-        touched = touched or force.any()
-        arrays = (force * (mass * length / second**2), velocity[nodes.of_motion] * (length / second),
-                  displacement[nodes.of_motion] * length)  # fmt: skip
-        lost += writer.append(nodes.time(contact, time), *(np.ascontiguousarray(array).ravel() for array in arrays))
-    if not touched:
-        refuse("all forces of ncforc are zero: the surfaces never touch", "compare the contact's sides with --wheel and --rail")
-    return lost
+        force = mass * length / second**2 * forces(nodes, sides, turn_over, time)
+        velocity, displacement = moving(nodes, motion, time)
+        lost += writer.append(
+            since(contact, motion, time), force.ravel(), length / second * velocity.ravel(), length * displacement.ravel()
+        )
+    return lost, [side.name for side, turned in zip(sides, turn_over) if turned < 0]
+
+
+def moving(nodes, motion, time):
+    """Velocities and displacements of all nodes at a time, in the units of the deck."""
+    return [nodes.mirrored(of[nodes.of_motion]) for of in motion.vectors(time, "velocity", "displacement")]
+
+
+def senses(nodes, points, sides, motion, times, length):
+    """For each side 1, or -1 where its forces pull on the whole: then they are those on the other body."""
+    found = np.zeros(len(sides))
+    for time in reversed(times):
+        at = points + length * moving(nodes, motion, time)[1]
+        corners = at[nodes.faces]
+        across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+        normal = np.zeros_like(at)
+        np.add.at(normal, nodes.faces.ravel(), np.repeat(across, 4, axis=0))
+        for k in np.flatnonzero(found == 0):
+            known, rows = nodes.of_sides[k]
+            own = ~nodes.image[known]
+            (force,) = sides[k].vectors(time, "force")
+            found[k] = -np.sign(np.sum(force[rows][own] * normal[known][own]))
+        if found.all():
+            break
+    if not found.any():
+        refuse("all forces of ncforc are zero: the surfaces never touch", "name the contact with --wheel and --rail")
+    return np.where(found < 0, -1, 1)
+
+
+def forces(nodes, sides, turn_over, time):
+    """The contact forces of all nodes at a time, in the units of the deck."""
+    force = np.zeros((len(nodes.ids), 3))
+    for side, turned, (known, rows), unrecorded in zip(sides, turn_over, nodes.of_sides, nodes.unrecorded):
+        (found,) = side.vectors(time, "force")
+        missing = side.ids[unrecorded & found.any(axis=1)]
+        if len(missing):
+            more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+            refuse(f"nodout lacks node {missing[0]}{more}, which bears a contact force", f"add {_binout.CARDS['nodout']}")
+        force[known] += turned * found[rows]
+    force[nodes.on_plane] *= (2, 0, 2)
+    return nodes.mirrored(force)
 
 
 def write_case(out, deck, options, contact, scales) -> list[str]:
