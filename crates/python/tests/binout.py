@@ -1,4 +1,4 @@
-"""A run as LS-DYNA would have recorded it: binout files with ``ncforc`` and ``nodout``, by the writer of lasso-python."""
+"""A run as LS-DYNA would have recorded it: binout with ``ncforc`` and ``nodout``, by the writer of lasso-python."""
 
 import numpy as np
 
@@ -9,8 +9,8 @@ LENGTH, FORCE = 1e-3, 1.0
 
 
 def labels(run, deck):
-    """The numbers that the nodes of a run's contact have in its deck, 0 of a mirror image; of two in one place the disk's
-    comes first."""
+    """The numbers that the nodes of a run's contact have in its deck, 0 of a mirror image; of two in one place the
+    disk's comes first."""
     at, inside = {}, False
     for line in deck.read_text().splitlines():
         if line.startswith("*"):
@@ -39,8 +39,8 @@ def normals(run, displacement):
 
 
 def forces(run, record, half):
-    """Contact forces of the nodes (N): the pressure along the normal, and the shear. A half bears half of those on its plane,
-    and the share of its own faces across it, which the other half cancels."""
+    """Contact forces of the nodes (N): the pressure along the normal, and the shear. A half bears half of those on its
+    plane, and a part across it, which the other half cancels."""
     contact = run.contact
     normal = normals(run, contact["displacement"][record])
     traction = contact["shear"][record] - contact["pressure"][record][:, None] * normal

@@ -288,3 +288,104 @@ fn sorted(mut face: [u32; 4]) -> [u32; 4] {
     face.sort_unstable();
     face
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ls_dyna::Fault;
+    use std::fmt::Write as _;
+
+    /// A cube of 1 mm on another with 0.1 mm between; the upper one is numbered inside out. `cards` say the rest.
+    fn read(cards: &str, sides: [Option<u64>; 2]) -> Result<Interface, DeckError> {
+        let mut deck = String::from("*KEYWORD\n*NODE\n");
+        for (first, low) in [(1, 0.0), (11, 1.1)] {
+            for (n, [x, y]) in [[0, 0], [1, 0], [1, 1], [0, 1]].into_iter().enumerate() {
+                for (above, z) in [(0, low), (4, low + 1.0)] {
+                    writeln!(deck, "{}, {x}, {y}, {z}", first + n + above).unwrap();
+                }
+            }
+        }
+        deck +=
+            "*ELEMENT_SOLID\n1, 1, 1, 2, 3, 4, 5, 6, 7, 8\n2, 2, 15, 16, 17, 18, 11, 12, 13, 14\n";
+        // what a disk on a bar could not have
+        deck += "*MAT_PLASTIC_KINEMATIC\n1, 7.8e-9, 210e3, 0.3, 400\n*CONTACT_TIED_NODES_TO_SURFACE\n1, 2\n";
+        deck += cards;
+        deck += "*END\n";
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("deck.k");
+        std::fs::write(&file, deck).unwrap();
+        let source = Source { file: &file, include_outside: false };
+        interface(&source, Units::parse("mm-ton-ms").unwrap(), sides)
+    }
+
+    /// Mean height of a side (m), and how many of its faces look outward from the middle of their cube.
+    fn seen(found: &Interface, side: usize) -> (f64, usize) {
+        let at = |n: u32| Vector3::from(found.points[n as usize]);
+        let faces = &found.faces[side];
+        let mean =
+            |nodes: &[u32]| nodes.iter().map(|&n| at(n)).sum::<Vector3<f64>>() / nodes.len() as f64;
+        let middle = mean(faces.as_flattened());
+        let outward =
+            |face: &&[u32; 4]| vector_area(face.map(at)).dot(&(mean(&face[..]) - middle)) > 0.0;
+        (middle.z, faces.iter().filter(outward).count())
+    }
+
+    #[test]
+    fn sides_by_parts_and_part_sets_are_their_outer_faces_seen_from_outside_and_the_wheel_is_above()
+    {
+        let cards = "*CONTACT_ONE_WAY_SURFACE_TO_SURFACE_ID\n9, wheel on rail\n1, 5, 3, 2, 0, 0, 1, 1\n0.5, 0.3, 6\n\n2\n\
+                     *SET_PART_LIST\n5\n2\n";
+        let found = read(cards, [None, None]).unwrap();
+        assert_eq!([seen(&found, 0).1, seen(&found, 1).1], [6, 6]);
+        assert!(seen(&found, 0).0 > seen(&found, 1).0);
+        assert_eq!(found.nodes, [1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 13, 14, 15, 16, 17, 18]);
+        // three faces of 1 mm2 meet at a corner
+        assert!(found.areas.iter().all(|area| (area - 0.75e-6).abs() < 1e-15));
+        // ms/mm are s/m
+        assert_eq!(found.friction, Some([0.5, 0.3, 6.0]));
+        assert_eq!(found.units, [1e-3, 1e3, 1e-3]);
+        for sides in [[Some(1), None], [None, Some(5)], [Some(1), Some(5)]] {
+            let turned = read(cards, sides).unwrap();
+            assert!(seen(&turned, 0).0 < seen(&turned, 1).0);
+        }
+    }
+
+    #[test]
+    fn a_half_is_completed_and_a_slice_is_not() {
+        let contact = "*CONTACT_SURFACE_TO_SURFACE\n31, 32\n-1\n\n*SET_SEGMENT\n31\n11, 12, 13, 14\n*SET_SEGMENT\n32\n5, 6, 7, 8\n";
+        let held = |nodes: &str| {
+            let cards =
+                format!("{contact}*BOUNDARY_SPC_SET\n4, 0, 0, 1\n*SET_NODE_LIST\n4\n{nodes}\n");
+            read(&cards, [None, None]).unwrap()
+        };
+        let half = held("1, 2, 5, 6, 11, 12, 15, 16");
+        assert_eq!((half.images, half.on_plane.len(), half.nodes.len()), (4, 4, 12));
+        assert_eq!(half.nodes[8..], [7, 8, 13, 14]);
+        assert_eq!(half.faces.each_ref().map(Vec::len), [2, 2]);
+        assert_eq!(half.friction, None);
+        let up = |face: &[u32; 4]| vector_area(face.map(|n| half.points[n as usize].into())).z;
+        assert!(half.faces[0].iter().all(|face| up(face) < 0.0), "the wheel's looks down");
+        assert!(half.faces[1].iter().all(|face| up(face) > 0.0), "the rail's looks up");
+        let total: f64 = half.areas.iter().sum();
+        assert!((total - 4e-6).abs() < 1e-15, "{total:e}");
+        let slice = held("5, 6, 7, 8, 11, 12, 13, 14");
+        assert_eq!((slice.images, slice.nodes.len()), (0, 8));
+    }
+
+    #[test]
+    fn of_several_contacts_the_sides_name_one() {
+        let cards = "*CONTACT_SURFACE_TO_SURFACE\n1, 2, 3, 3\n0.5\n\n*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE\n2, 7, 3, 3\n0.1\n\n";
+        let refused = read(cards, [None, None]).unwrap_err();
+        assert!(matches!(refused.fault, Fault::Second { .. }), "{refused}");
+        assert_eq!(read(cards, [None, Some(1)]).unwrap().friction, Some([0.5, 0.0, 0.0]));
+        for (sides, said) in
+            [([Some(7), None], "side 7 of the contact has no faces"), ([Some(4), None], "side 4")]
+        {
+            let refused = read(cards, sides).unwrap_err().to_string();
+            assert!(refused.contains(said), "{refused}");
+        }
+        assert!(
+            read("", [None, None]).unwrap_err().to_string().contains("*CONTACT_SURFACE_TO_SURFACE")
+        );
+    }
+}

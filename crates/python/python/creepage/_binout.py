@@ -1,7 +1,7 @@
 """The databases ``ncforc`` and ``nodout`` of LS-DYNA's binout files.
 
-Where values stand is that of ``l2a``, the program that LSTC gives away to write binout as text: ``/nodout/metadata/ids`` and
-``/nodout/dNNNNNN/x_velocity``; ``/ncforc/slave_N/metadata/ids`` and ``/ncforc/slave_N/dNNNNNN/x_force``, with one folder
+The places of values are those that ``l2a`` reads, LSTC's program to write binout as text: ``/nodout/metadata/ids`` and
+``/nodout/dNNNNNN/x_velocity``; ``/ncforc/slave_N/metadata/ids`` and ``/ncforc/slave_N/dNNNNNN/x_force``, with a folder
 ``slave_N`` or ``master_N`` for each side of each contact.
 """
 

@@ -40,7 +40,7 @@ def from_lsdyna(folder, deck=None, *, out, wheel=None, rail=None, unit="mm-ton-s
 def imported(folder, deck, out, options, scales) -> dict:
     """Writes the run; returns what ``creepage from-lsdyna --json`` prints."""
     folder, out = Path(folder), Path(out)
-    for name in (_NAMES["contact"], _NAMES["case"]):
+    for name in (_NAMES["contact"], _NAMES["case"], MESH):
         if (out / name).exists():
             refuse(f"{out / name} is there already", "choose another folder with --out RUN")
     binout = _binout.opened(folder)
@@ -50,8 +50,12 @@ def imported(folder, deck, out, options, scales) -> dict:
     nodes = Nodes(contact, sides, motion)
     times, counts = common(sides, motion, contact["begins"] / contact["units"][2])
     out.mkdir(parents=True, exist_ok=True)
+    try:
+        lost, turned = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
+    except BaseException:
+        (out / _NAMES["contact"]).unlink(missing_ok=True)
+        raise
     notes = write_case(out, deck, options, contact, scales)
-    lost, turned = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
     notes += [f"the forces of {name} pull: they were taken as those on the other body" for name in turned]
     return {
         "run": str(out),
@@ -130,14 +134,16 @@ def common(sides, motion, begins):
     # to the digits of single precision
     times = sorted(t for t in everywhere if t >= begins * (1 - 1e-6))
     if not everywhere:
-        refuse("no state of ncforc and of nodout has the same time", "give both cards the same DT, and run the deck again")
+        refuse(
+            "no state of ncforc and of nodout has the same time", "give both cards the same DT, and run the deck again"
+        )
     if not times:
         refuse(f"no state is as late as STIME = {begins:g}, when the wheel begins to roll", "run the deck to its end")
     return times, {"unmatched": len(anywhere - everywhere), "earlier": len(everywhere) - len(times)}
 
 
 def write_contact(path, contact, nodes, sides, motion, times):
-    """Writes the history; returns how many times a node with a force had no projection, and which sides were turned over."""
+    """Writes the history; returns how often a node with a force had no projection, and which sides were turned over."""
     length, mass, second = contact["units"]
     points, areas = np.array(contact["points"])[nodes.kept], np.array(contact["areas"])[nodes.kept]
     turn_over = senses(nodes, points, sides, motion, times, length)
@@ -147,7 +153,10 @@ def write_contact(path, contact, nodes, sides, motion, times):
         force = mass * length / second**2 * forces(nodes, sides, turn_over, time)
         velocity, displacement = moving(nodes, motion, time)
         lost += writer.append(
-            since(contact, motion, time), force.ravel(), length / second * velocity.ravel(), length * displacement.ravel()
+            since(contact, motion, time),
+            force.ravel(),
+            length / second * velocity.ravel(),
+            length * displacement.ravel(),
         )
     return lost, [side.name for side, turned in zip(sides, turn_over) if turned < 0]
 
@@ -186,7 +195,9 @@ def forces(nodes, sides, turn_over, time):
         missing = side.ids[unrecorded & found.any(axis=1)]
         if len(missing):
             more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-            refuse(f"nodout lacks node {missing[0]}{more}, which bears a contact force", f"add {_binout.CARDS['nodout']}")
+            refuse(
+                f"nodout lacks node {missing[0]}{more}, which bears a contact force", f"add {_binout.CARDS['nodout']}"
+            )
         force[known] += turned * found[rows]
     force[nodes.on_plane] *= (2, 0, 2)
     return nodes.mirrored(force)
@@ -196,7 +207,12 @@ def write_case(out, deck, options, contact, scales) -> list[str]:
     """Writes the case: that of the keyword file where a disk on a bar says all of it, else what is known."""
     with tempfile.TemporaryDirectory() as scratch:
         try:
-            made = {"file": deck.absolute(), "unit": options["unit"], "out": Path(scratch, "case"), "include_outside": True}
+            made = {
+                "file": deck.absolute(),
+                "unit": options["unit"],
+                "out": Path(scratch, "case"),
+                "include_outside": True,
+            }
             case = execute(_creepage.import_k, made)[0]
             text, notes = Path(case["case"]).read_text("utf-8"), ["case.toml is the case of the deck, as of import-k"]
             (out / MESH).write_bytes(Path(case["mesh"]).read_bytes())

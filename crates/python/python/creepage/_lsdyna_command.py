@@ -24,10 +24,15 @@ def parser() -> Parser:
     add = made.add_argument
     add("folder", metavar="FOLDER", help="folder of the results")
     add("--deck", metavar="FILE.k", help="the keyword file [default: the only one in FOLDER]")
-    add("--wheel", metavar="SET", type=int, help="number of the wheel's side on the card of the contact [default: the upper]")
+    add(
+        "--wheel",
+        metavar="SET",
+        type=int,
+        help="number of the wheel's side on the card of the contact [default: the upper]",
+    )
     add("--rail", metavar="SET", type=int, help="number of the rail's side")
-    add("--unit", metavar="mm-ton-s", default="mm-ton-s", help="units of the deck: length (m, cm, mm, in), mass (kg, ton, "
-        "g), time (s, ms, us)")  # fmt: skip
+    add("--unit", metavar="mm-ton-s", default="mm-ton-s", help="units of the deck: length (m, cm, mm, in), mass (kg, "
+        "ton, g), time (s, ms, us)")  # fmt: skip
     add("--scale", metavar="NAME=VALUE", action="append", default=[], help="a scale of the check for case.toml, for "
         "example slip_speed=0.1; may be repeated")  # fmt: skip
     add("--out", metavar="RUN", required=True, help="new folder for contact.vtkhdf and case.toml")
@@ -68,8 +73,9 @@ def main(words) -> int:
 def said(document) -> str:
     """The lines about what was read."""
     (first, last), (wheel, rail) = document["time"], document["nodes"]
-    lines = [f"{document['run']}: {document['records']} records from {1e3 * first:.4f} to {1e3 * last:.4f} ms, {wheel} nodes of "
-             f"the wheel and {rail} of the rail"]  # fmt: skip
+    span = f"from {1e3 * first:.4f} to {1e3 * last:.4f} ms"
+    sides = f"{wheel} nodes of the wheel and {rail} of the rail"
+    lines = [f"{document['run']}: {document['records']} records {span}, {sides}"]
     for key, what in [
         ("earlier", "states before the wheel rolls were left out"),
         ("unmatched", "states stand in one of ncforc and nodout alone, and were left out"),

@@ -4,7 +4,7 @@ import importlib
 
 
 def optional(package, extra=None, project=None):
-    """The imported package; where it is missing the error names the extra that installs it, and the ``project`` that has it."""
+    """The imported package; where it is missing the error names the extra that installs it, and its project."""
     try:
         return importlib.import_module(package)
     except ImportError as error:
