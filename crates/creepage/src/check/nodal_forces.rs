@@ -11,7 +11,7 @@ use std::path::Path;
 /// Writes `contact.vtkhdf` record by record. At a node with the unit normal `n` of its own surface, the mean of the normals
 /// of the faces around it as they are displaced, and with the area `A`, a force `f` gives the pressure `-f.n/A` and the
 /// shear `f/A + p n`. The slip velocity is that relative to the closest-point projection on the other surface, as
-/// [`Pair::slip`] finds it.
+/// the check finds it for the pair.
 pub struct ContactOfForces {
     file: TransientGrid,
     surface: Surface,
