@@ -61,11 +61,14 @@ def values(folder, name, where):
     symbol = folder.children.get(name.encode())
     if symbol is None:
         refuse(f"binout holds no {name} of {where}", ANEW)
-    raw = symbol.read_raw()
-    kind = np.dtype(symbol.file.ordercode + TYPES[symbol.type])
-    if len(raw) != symbol.length * kind.itemsize:
+    kind = TYPES.get(symbol.type)
+    try:
+        raw = symbol.read_raw() if kind else b""
+    except (OSError, OverflowError, MemoryError):
+        raw = b""
+    if kind is None or len(raw) != symbol.length * np.dtype(kind).itemsize:
         refuse(f"{symbol.file.name} is damaged or cut short at {name} of {where}", ANEW)
-    return np.frombuffer(raw, kind)
+    return np.frombuffer(raw, symbol.file.ordercode + kind)
 
 
 class Table:
@@ -87,11 +90,13 @@ class Table:
         """Quantities such as velocity at a time: for each an array of rows x, y, z."""
         key, state, _ = self.states[time]
         where = f"{self.name}/{key}"
-        parts = ([values(state, f"{axis}_{quantity}", where) for axis in "xyz"] for quantity in quantities)
-        found = [np.stack(part, axis=1).astype(float) for part in parts]
-        for quantity, rows in zip(quantities, found):
-            if len(rows) != len(self.ids):
-                refuse(f"{where} holds {quantity} of {len(rows)} nodes, its metadata {len(self.ids)}", ANEW)
+        found = []
+        for quantity in quantities:
+            axes = [values(state, f"{axis}_{quantity}", where) for axis in "xyz"]
+            wrong = [len(axis) for axis in axes if len(axis) != len(self.ids)]
+            if wrong:
+                refuse(f"{where} holds {quantity} of {wrong[0]} nodes, its metadata {len(self.ids)}", ANEW)
+            found.append(np.stack(axes, axis=1).astype(float))
         return found
 
 
