@@ -10,6 +10,7 @@ mod scatter;
 mod scene;
 pub mod slider;
 mod spectrum;
+mod subsurface;
 
 use crate::chart::Figure;
 use crate::check::PostError;
@@ -19,6 +20,7 @@ use crate::check::frames::ContactHistory;
 use crate::check::means::Sources;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::window::{Span, Window};
+use crate::subsurface::Below;
 use output::layout::file;
 
 pub(crate) use scene::{FigureMeans, Instant, Scene};
@@ -68,7 +70,7 @@ pub fn figures(
         traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
     };
     let window = window.ends(&history.times);
-    let (instants, halves) = (Vec::new(), scene::halves(&history.surface));
+    let (instants, halves) = (Vec::new(), history.surface.halves());
     let mut scene = Scene {
         history: &history,
         basis,
@@ -124,6 +126,18 @@ pub fn figures(
         let about =
             "maps of the patch at an instant: tractions, slip velocity, stick and slip, friction";
         all.push(Named { stem: "contact-maps", about, figure });
+    }
+    if let Some(below) = Below::read(paths, &history, scene.basis, &scene.scales)? {
+        all.push(Named {
+            stem: "stress-section",
+            about: "von Mises stress of both bodies at y = 0",
+            figure: subsurface::section(&scene, &below),
+        });
+        all.push(Named {
+            stem: "stress-depth",
+            about: "stress over the depth below the patch, beside half-spaces",
+            figure: subsurface::depth(&scene, &below),
+        });
     }
     if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
         let about = "forces, creepage, patch and energies over time";

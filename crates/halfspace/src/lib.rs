@@ -35,6 +35,7 @@ mod plane;
 mod quadrature;
 mod return_mapping;
 mod rolling;
+mod subsurface;
 mod tangential;
 
 pub use compliance::{Compliance, HalfSpaces};
@@ -46,3 +47,4 @@ pub use rolling::{
     Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,
     StepSums,
 };
+pub use subsurface::{LoadedCell, plane_stress_below, stress_below};

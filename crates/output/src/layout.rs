@@ -186,7 +186,8 @@ datasets! {
 }
 
 datasets! {
-    /// Fields of `fields.vtkhdf` in the global frame; `stress` unless the case leaves it out.
+    /// Fields of `fields.vtkhdf` in the global frame; the stresses are those that the case asks for, tension
+    /// positive.
     BodyFields, BODIES {
         displacement: vector("m", "displacement from the undeformed state"),
         deformation: vector(
@@ -194,6 +195,10 @@ datasets! {
         ),
         velocity: vector("m/s", "velocity over the last step"),
         stress: cell_tensor("Pa", "Cauchy stress, xx yy zz xy yz xz"),
+        von_mises: cell_scalar("Pa", "von Mises stress"),
+        max_shear: cell_scalar("Pa", "largest shear stress, half of largest less smallest principal stress"),
+        hydrostatic: cell_scalar("Pa", "hydrostatic stress, a third of the trace"),
+        principal: cell_vector("Pa", "principal stresses, the largest first"),
     }
 }
 

@@ -23,7 +23,9 @@ mod _creepage {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::commands::{check, main, mesh, plot, report, run, schema, slider, sweep, view};
+    use crate::commands::{
+        check, main, mesh, plot, report, run, schema, slider, stress_profile, sweep, view,
+    };
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

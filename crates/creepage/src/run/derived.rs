@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 const FIGURES: &str = "figures";
 
 /// The figures of a run, each as SVG and PNG.
-pub const FIGURE_NAMES: [&str; 9] = [
+pub const FIGURE_NAMES: [&str; 11] = [
     "figure-1-velocities",
     "figure-2-stick-slip",
     "figure-3-tractions",
@@ -22,6 +22,8 @@ pub const FIGURE_NAMES: [&str; 9] = [
     "figure-7-law",
     "space-time",
     "contact-maps",
+    "stress-section",
+    "stress-depth",
     "histories",
     "spectrum",
 ];

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._results import CheckResult, Summary, SweepResult
+from ._results import CheckResult, StressProfile, Summary, SweepResult
 
 _Path = str | PathLike[str]
 _Case = _Path | Mapping[str, Any]
@@ -162,6 +162,7 @@ class Run:
         width: int | None = None,
         frames: int | None = None,
     ) -> Path: ...
+    def stress_profile(self) -> dict[Literal["disk", "bar"], StressProfile]: ...
     def view(self, out: _Path | None = None) -> Path: ...
     def report(self, out: _Path | None = None) -> Path: ...
     def to_pyvista(self, step: int = -1, what: Literal["fields", "contact"] = "fields") -> Any: ...

@@ -486,6 +486,20 @@ class Run:
         options |= {"magnify": magnify, "span": span, "width": width, "frames": frames}
         return Path(render(self.path, out, **options)["file"])
 
+    def stress_profile(self) -> dict:
+        """The stress over the depth on the axis of the patch, at the last record of ``fields``.
+
+        Needs the tensor ``stress`` in ``fields.vtkhdf`` (output.stress = true).
+
+        Returns:
+            dict: by the body, "disk" and "bar", a dict: ``depth`` (m, shape (n,)), the centroids of the elements;
+            ``elements``, ``half_space`` (under the pressure and shear of the run) and ``hertz`` (under Hertz's pressure
+            alone), each a dict of arrays of the same shape (Pa, tension positive): ``von_mises``, ``max_shear``,
+            ``hydrostatic``, ``xx``, ``yy``, ``zz``, ``xz``; and ``half_length``, ``peak_pressure``, ``time``, ``x``.
+        """
+        profiles = execute(_creepage.stress_profile, {"run": self.path})[0]
+        return {profile["body"]: _arrays(profile) for profile in profiles}
+
     def view(self, out=None) -> Path:
         """Write a page with the interactive scene of the run [default: scene.html in its folder]; returns its path."""
         return Path(execute(_creepage.view, {"run": self.path, "out": out})[0]["page"])
@@ -543,6 +557,13 @@ class Run:
 
     def __repr__(self):
         return f"<run {self.path}: {self.summary.get('status', 'under way')}>"
+
+
+def _arrays(document):
+    """The document with arrays in the place of its lists."""
+    if isinstance(document, dict):
+        return {key: _arrays(value) for key, value in document.items()}
+    return np.array(document, float) if isinstance(document, list) else document
 
 
 def _span(window):
