@@ -145,7 +145,7 @@ fn line_force([q, p]: [f64; 2], [x, z]: [f64; 2]) -> [f64; 3] {
 impl Ellipse {
     /// Stress (Pa) at the depth `z` (m) below the centre, where x, y and z are the principal directions.
     ///
-    /// In plane strain by McEwen (Johnson 1985, Eq 4.45). Below an ellipse the formulas of Boussinesq with the
+    /// In plane strain by McEwen (Johnson 1985, Sec. 4.2). Below an ellipse the formulas of Boussinesq with the
     /// potential of Hertz's pressure,
     /// V = (pi a b p0/2) int_{z^2}^inf (1 - x^2/(a^2 + s) - y^2/(b^2 + s) - z^2/s) ds/sqrt((a^2 + s)(b^2 + s) s)
     /// (Johnson 1985, Secs. 3.2 and 3.5; Sackfield and Hills 1983). With
