@@ -91,10 +91,10 @@ pub fn figures(
         scene.instants.push(Instant { frame, centre });
     }
     scene.line_reach = scene.reach_of_lines();
-    let computed = match choice.reference {
-        Some(Reference::HalfSpace) => Some(reference::steady(&scene, paths)?),
-        None => None,
-    };
+    let computed = choice
+        .reference
+        .map(|Reference::HalfSpace| reference::steady(&scene, paths))
+        .transpose()?;
     let band = maps::Band::gather(&scene)?;
     let mut all = vec![
         Named {

@@ -6,9 +6,9 @@ use crate::rolling::{Inertia, Rigid, Rolling, RollingError, Setup};
 use friction::Coulomb;
 use std::sync::Arc;
 
-/// Spacings in the smaller half axis of the patch. The error is of first order in the spacing: with 14 the force is too large by
-/// 1.2, 0.7 and 0.2 % of CONTACT's at T/(mu N) = 0.30, 0.56 and 0.80, a/b = 1.33.
-const SPACINGS: f64 = 14.0;
+/// Spacings in the half axis of the circle of the patch's area, which holds 800 points. The error is of first order in the
+/// spacing: at a/b = 1.33 the force is larger than CONTACT's by 0.9 and 0.4 % at T/(mu N) = 0.56 and 0.80.
+const SPACINGS: f64 = 16.0;
 /// Rolling is steady when the force changes by less than this part of mu N over a spacing.
 const STEADY: f64 = 1e-6;
 /// Lengths of the patch within which it must become so.
@@ -52,7 +52,8 @@ pub fn steady(
     mu: f64,
     rigid: Rigid,
 ) -> Result<SteadyRolling, SteadyError> {
-    let spacing = patch.half_width.unwrap_or(patch.half_length).min(patch.half_length) / SPACINGS;
+    let spacing =
+        (patch.half_length * patch.half_width.unwrap_or(patch.half_length)).sqrt() / SPACINGS;
     let mut rolling = Rolling::new(Setup {
         bodies,
         spacing,

@@ -7,7 +7,6 @@ use output::files::made::PDF_MARK;
 use pdf_writer::types::{CidFontType, FontFlags, LineJoinStyle, SystemInfo, UnicodeCmap};
 use pdf_writer::{Content, Filter, Finish, Name, Pdf, Rect, Ref, Str, TextStr};
 use plotters::prelude::*;
-use plotters_backend::text_anchor::HPos;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingErrorKind,
 };
@@ -17,8 +16,8 @@ use ttf_parser::{Face, GlyphId};
 
 /// What the drawing library calls the size of a text, over that of its letters, as in its SVG files.
 const LIBRARY: f64 = 1.24;
-/// From the middle of a line of letters to its foot, over their size: half the height of an x.
-const FOOT: f64 = 0.27;
+/// From the middle of a line of letters down to its baseline, over their size: half the height of an x.
+const BASELINE: f64 = 0.27;
 /// A quarter of a circle by a cubic: the distance of its inner points from its ends, over the radius.
 const QUARTER: f64 = 0.552_284_75;
 
@@ -129,17 +128,6 @@ impl Canvas<'_> {
         self.content.set_fill_rgb(r, g, b).set_stroke_rgb(r, g, b);
     }
 
-    fn polyline(&mut self, points: impl IntoIterator<Item = BackendCoord>) {
-        for (i, (x, y)) in points.into_iter().enumerate() {
-            let (x, y) = (x as f32, y as f32);
-            if i == 0 {
-                self.content.move_to(x, y)
-            } else {
-                self.content.line_to(x, y)
-            };
-        }
-    }
-
     /// Fills or strokes what was outlined.
     fn paint<S: BackendStyle>(&mut self, style: &S, fill: bool) {
         self.content.set_line_width(style.stroke_width() as f32);
@@ -148,6 +136,24 @@ impl Canvas<'_> {
         } else {
             self.content.stroke()
         };
+    }
+
+    fn outline<S: BackendStyle>(
+        &mut self,
+        points: impl IntoIterator<Item = BackendCoord>,
+        style: &S,
+        fill: bool,
+    ) {
+        self.ink(style.color());
+        for (i, (x, y)) in points.into_iter().enumerate() {
+            let (x, y) = (x as f32, y as f32);
+            if i == 0 {
+                self.content.move_to(x, y)
+            } else {
+                self.content.line_to(x, y)
+            };
+        }
+        self.paint(style, fill);
     }
 
     fn glyph(&self, letter: char) -> u16 {
@@ -182,15 +188,6 @@ impl DrawingBackend for Canvas<'_> {
         self.draw_rect((x, y), (x + 1, y + 1), &colour, true)
     }
 
-    fn draw_line<S: BackendStyle>(
-        &mut self,
-        from: BackendCoord,
-        to: BackendCoord,
-        style: &S,
-    ) -> Drawn {
-        self.draw_path([from, to], style)
-    }
-
     fn draw_rect<S: BackendStyle>(
         &mut self,
         (left, top): BackendCoord,
@@ -209,9 +206,7 @@ impl DrawingBackend for Canvas<'_> {
         path: I,
         style: &S,
     ) -> Drawn {
-        self.ink(style.color());
-        self.polyline(path);
-        self.paint(style, false);
+        self.outline(path, style, false);
         Ok(())
     }
 
@@ -245,25 +240,19 @@ impl DrawingBackend for Canvas<'_> {
         corners: I,
         style: &S,
     ) -> Drawn {
-        self.ink(style.color());
-        self.polyline(corners);
-        self.paint(style, true);
+        self.outline(corners, style, true);
         Ok(())
     }
 
+    /// Draws a text with its left end and its middle at a point, as [`Pen`](crate::chart::layout::Pen) asks for all of them.
     fn draw_text<S: BackendTextStyle>(&mut self, text: &str, style: &S, at: BackendCoord) -> Drawn {
         let size = style.size() / LIBRARY;
         let [along, down] = [(1, 0), (0, 1)].map(|(x, y)| {
             let (x, y) = style.transform().transform(x, y);
-            [f64::from(x), f64::from(y)]
+            [x as f32, y as f32]
         });
-        let before = match style.anchor().h_pos {
-            HPos::Left => 0.0,
-            HPos::Center => 0.5 * size * self.width(text),
-            HPos::Right => size * self.width(text),
-        };
-        let start = [f64::from(at.0), f64::from(at.1)];
-        let foot = [0, 1].map(|i| start[i] - before * along[i] + FOOT * size * down[i]);
+        let lower = (BASELINE * size) as f32;
+        let [x, y] = [at.0 as f32 + lower * down[0], at.1 as f32 + lower * down[1]];
         let mut glyphs = Vec::new();
         for letter in text.chars() {
             let glyph = self.glyph(letter);
@@ -271,8 +260,8 @@ impl DrawingBackend for Canvas<'_> {
             glyphs.extend(glyph.to_be_bytes());
         }
         self.ink(style.color());
-        let matrix = [along[0], along[1], -down[0], -down[1], foot[0], foot[1]].map(|m| m as f32);
-        self.content.begin_text().set_font(FONT, size as f32).set_text_matrix(matrix);
+        self.content.begin_text().set_font(FONT, size as f32);
+        self.content.set_text_matrix([along[0], along[1], -down[0], -down[1], x, y]);
         self.content.show(Str(&glyphs)).end_text();
         Ok(())
     }

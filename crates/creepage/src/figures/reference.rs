@@ -221,7 +221,7 @@ mod tests {
         {
             let found = computed(wheel(creepage)).unwrap();
             let excess = found.traction_coefficient / traction - 1.0;
-            // 0.7 and 0.2 %: of first order in the spacing
+            // 0.9 and 0.4 %: of first order in the spacing
             assert!((0.0..0.01).contains(&excess), "{traction}: {excess}");
             let profile = profile(column);
             let at = |x: f64| {
@@ -235,7 +235,7 @@ mod tests {
                 .filter_map(|[x, shear]| Some((shear - at(*x)?).powi(2)))
                 .collect();
             let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
-            // 0.5 and 1.0 %: half a spacing at the border of stick
+            // 0.8 and 1.1 %: half a spacing at the border of stick
             assert!(squares.len() > 30 && rms < 0.015 * MU * PEAK_PRESSURE, "{traction}: {rms}");
             let linear = found.linear.unwrap();
             assert!(linear > found.traction_coefficient && found.fastsim.unwrap() < linear);
@@ -250,7 +250,7 @@ mod tests {
             inputs(&Case::load(quick.as_ref(), &sets).unwrap(), 1e-3)
         };
         assert_eq!(of(&[]).unwrap().mu, 0.5);
-        let flat = ["disk.crown_radius=flat", "bar.crown_radius=flat"];
+        let flat = ["disk.crown_radius=flat", "bar.crown_radius=flat", "mesh.zone.width=0.06"];
         for (sets, why) in [
             (&["friction.law=exponential", "friction.dynamic=0.3"][..], "friction.law"),
             (&["disk.material.young=100e9"], "disk.material and bar.material differ"),
