@@ -54,7 +54,7 @@ pub fn c11(shape: f64, poisson: f64) -> Option<f64> {
 pub struct ClosedForms {
     /// Kalker's linear theory, e = G a b C11 xi/(mu N) (Kalker 1990).
     pub linear: f64,
-    /// Kalker's simplified theory: see [`fastsim`].
+    /// Kalker's simplified theory (1982), which FASTSIM integrates, without its error of integration.
     pub fastsim: f64,
     /// The cubic of Vermeulen and Johnson (1964) with the slope of the linear theory (Shen, Hedrick and Elkins 1983): e - e^2/3 +
     /// e^3/27, and 1 from e = 3 on.
