@@ -6,6 +6,7 @@ mod histories;
 mod lines;
 mod maps;
 mod patch;
+mod reference;
 mod scatter;
 mod scene;
 pub mod slider;
@@ -23,6 +24,7 @@ use crate::check::window::{Span, Window};
 use crate::subsurface::Below;
 use output::layout::file;
 
+pub use reference::Reference;
 pub(crate) use scene::{FigureMeans, Instant, Scene};
 
 /// A figure with the name of its files.
@@ -36,13 +38,15 @@ pub struct Named {
     pub figure: Figure,
 }
 
-/// Which instants and probes are drawn.
+/// Which instants and probes are drawn, and beside what.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// Times of lines and maps (s); the last of the window where there are none.
     pub instants: Vec<f64>,
     /// Numbers of the probes; the first ones where there are none.
     pub probes: Vec<usize>,
+    /// What the tractions are drawn beside, where it is to be computed.
+    pub reference: Option<Reference>,
 }
 
 /// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
@@ -50,8 +54,8 @@ pub struct Choice {
 /// records; `window` as in [`Criteria`](crate::check::Criteria).
 ///
 /// # Errors
-/// Files that cannot be read or lack data or scales that the figures need; a window without a record; an instant or a probe
-/// that the run does not have.
+/// Files that cannot be read or lack data or scales that the figures need; a window without a record; an instant, a probe or a
+/// reference that the run does not have.
 pub fn figures(
     paths: &RunPaths,
     basis: &mut Basis,
@@ -89,6 +93,10 @@ pub fn figures(
         scene.instants.push(Instant { frame, centre });
     }
     scene.line_reach = scene.reach_of_lines();
+    let computed = choice
+        .reference
+        .map(|Reference::HalfSpace| reference::steady(&scene, paths))
+        .transpose()?;
     let band = maps::Band::gather(&scene)?;
     let mut all = vec![
         Named {
@@ -104,7 +112,7 @@ pub fn figures(
         Named {
             stem: "figure-3-tractions",
             about: "pressure, shear and the bound of friction along y = 0",
-            figure: lines::tractions(&scene),
+            figure: lines::tractions(&scene, computed),
         },
         Named {
             stem: "figure-4-bound",

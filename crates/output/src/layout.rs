@@ -31,6 +31,7 @@ names! {
         POSTMORTEM = "postmortem.vtkhdf", "both bodies as they were when the guards stopped the run";
         SUMMARY = "summary.json", "what `creepage run --json` prints";
         LOG = "run.log", "what the run said";
+        REFERENCE = "reference-half-space.json", "steady rolling of half-spaces beside the run";
     }
 }
 

@@ -94,7 +94,7 @@ def test_a_check_is_the_document_of_the_command_line(small):
 
 
 def test_figures_and_the_page_are_written(small, tmp_path):
-    figures = small.figures(tmp_path, format="svg")
+    figures = small.figures(tmp_path, format=["svg", "pdf"])
     assert figures and all(file.stat().st_size > 0 for files in figures.values() for file in files)
     page = small.report(tmp_path / "page.html")
     assert page.read_text().lstrip().lower().startswith("<!doctype html")

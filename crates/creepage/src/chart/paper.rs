@@ -49,6 +49,11 @@ impl Paper {
         })
     }
 
+    /// The same as PDF has them (points of 1/72 inch).
+    pub(crate) fn points(&self, laid_out: &Figure) -> [f64; 2] {
+        laid_out.size.map(|points| f64::from(points) * self.scale(laid_out) / PER_PT)
+    }
+
     /// Pixels in a metre, where the size on paper is known.
     pub(crate) fn per_metre(&self) -> Option<u32> {
         self.width.map(|_| (1e3 * PIXELS[1] * PER_MM).round() as u32)
