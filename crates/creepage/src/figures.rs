@@ -63,73 +63,8 @@ pub fn figures(
     choice: &Choice,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let window = Window::resolve(window, basis, &history)?;
-    let records = window.records.clone();
-    let scales = Scales::resolve(basis, &history, &records)?;
-    let body = history.surface.bodies().last().copied().unwrap_or(0);
-    let sources = Sources::of(paths, basis, &window)?;
-    let means = FigureMeans {
-        normal_force: sources.mean(PatchMeasure::NormalForce),
-        creepage: sources.mean(PatchMeasure::Creepage),
-        traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
-    };
-    let window = window.ends(&history.times);
-    let (instants, halves) = (Vec::new(), history.surface.halves());
-    let mut scene = Scene {
-        history: &history,
-        basis,
-        scales,
-        body,
-        records,
-        window,
-        means,
-        instants,
-        halves,
-        line_reach: 0.0,
-    };
-    for index in scene.instant_indices(&choice.instants)? {
-        let frame = history.record(index)?;
-        let centre = scene.centre(&frame);
-        scene.instants.push(Instant { frame, centre });
-    }
-    scene.line_reach = scene.reach_of_lines();
-    let computed = choice
-        .reference
-        .map(|Reference::HalfSpace| reference::steady(&scene, paths))
-        .transpose()?;
-    let band = maps::Band::gather(&scene)?;
-    let mut all = vec![
-        Named {
-            stem: "figure-1-velocities",
-            about: "velocities of the surface nodes along y = 0, and the slip velocity",
-            figure: lines::velocities(&scene),
-        },
-        Named {
-            stem: "figure-2-stick-slip",
-            about: "where and how fast the patch slips, at up to three instants",
-            figure: maps::stick_slip(&scene),
-        },
-        Named {
-            stem: "figure-3-tractions",
-            about: "pressure, shear and the bound of friction along y = 0",
-            figure: lines::tractions(&scene, computed),
-        },
-        Named {
-            stem: "figure-4-bound",
-            about: "the bound that the slip velocity implies, beside the shear",
-            figure: lines::bound(&scene),
-        },
-        Named {
-            stem: "figure-7-law",
-            about: "shear over pressure against slip speed, over the friction law",
-            figure: scatter::law(&scene, &band),
-        },
-        Named {
-            stem: "space-time",
-            about: "slip along y = 0 over time",
-            figure: maps::space_time(&scene, &band),
-        },
-    ];
+    let scene = scene(&history, paths, basis, window, &choice.instants)?;
+    let mut all = lines_and_law(&scene, paths, choice.reference)?;
     if let Some(figure) = patch::maps(&scene) {
         let about =
             "maps of the patch at an instant: tractions, slip velocity, stick and slip, friction";
@@ -158,4 +93,82 @@ pub fn figures(
         all.push(Named { stem: "spectrum", about, figure });
     }
     Ok(all)
+}
+
+/// What the figures of a run are drawn from.
+fn scene<'a>(
+    history: &'a ContactHistory,
+    paths: &RunPaths,
+    basis: &'a mut Basis,
+    window: Option<Span>,
+    instants: &[f64],
+) -> Result<Scene<'a>, PostError> {
+    let window = Window::resolve(window, basis, history)?;
+    let records = window.records.clone();
+    let scales = Scales::resolve(basis, history, &records)?;
+    let sources = Sources::of(paths, basis, &window)?;
+    let means = FigureMeans {
+        normal_force: sources.mean(PatchMeasure::NormalForce),
+        creepage: sources.mean(PatchMeasure::Creepage),
+        traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
+    };
+    let mut scene = Scene {
+        history,
+        basis,
+        scales,
+        body: history.surface.bodies().last().copied().unwrap_or(0),
+        records,
+        window: window.ends(&history.times),
+        means,
+        instants: Vec::new(),
+        halves: history.surface.halves(),
+        line_reach: 0.0,
+    };
+    for index in scene.instant_indices(instants)? {
+        let frame = history.record(index)?;
+        let centre = scene.centre(&frame);
+        scene.instants.push(Instant { frame, centre });
+    }
+    scene.line_reach = scene.reach_of_lines();
+    Ok(scene)
+}
+
+/// The figures that every run has: those of the papers, and slip over time.
+fn lines_and_law(
+    scene: &Scene<'_>,
+    paths: &RunPaths,
+    reference: Option<Reference>,
+) -> Result<Vec<Named>, PostError> {
+    let computed =
+        reference.map(|Reference::HalfSpace| reference::steady(scene, paths)).transpose()?;
+    let band = maps::Band::gather(scene)?;
+    let named = |stem, about, figure| Named { stem, about, figure };
+    Ok(vec![
+        named(
+            "figure-1-velocities",
+            "velocities of the surface nodes along y = 0, and the slip velocity",
+            lines::velocities(scene),
+        ),
+        named(
+            "figure-2-stick-slip",
+            "where and how fast the patch slips, at up to three instants",
+            maps::stick_slip(scene),
+        ),
+        named(
+            "figure-3-tractions",
+            "pressure, shear and the bound of friction along y = 0",
+            lines::tractions(scene, computed),
+        ),
+        named(
+            "figure-4-bound",
+            "the bound that the slip velocity implies, beside the shear",
+            lines::bound(scene),
+        ),
+        named(
+            "figure-7-law",
+            "shear over pressure against slip speed, over the friction law",
+            scatter::law(scene, &band),
+        ),
+        named("space-time", "slip along y = 0 over time", maps::space_time(scene, &band)),
+    ])
 }

@@ -1,6 +1,7 @@
 //! A figure as a PDF file: one page, lines and letters, with the font of all figures.
 
 use crate::chart::layout::Medium;
+use crate::chart::paper::LIBRARY;
 use crate::chart::{Figure, draw, font};
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use output::files::made::PDF_MARK;
@@ -14,8 +15,6 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 use ttf_parser::{Face, GlyphId};
 
-/// What the drawing library calls the size of a text, over that of its letters, as in its SVG files.
-const LIBRARY: f64 = 1.24;
 /// From the middle of a line of letters down to its baseline, over their size: half the height of an x.
 const BASELINE: f64 = 0.27;
 /// A quarter of a circle by a cubic: the distance of its inner points from its ends, over the radius.
