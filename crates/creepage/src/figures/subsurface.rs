@@ -17,7 +17,10 @@ const POINTS: usize = 80;
 /// Von Mises stress of both bodies in the plane y = 0, element by element.
 pub(super) fn section(scene: &Scene<'_>, below: &Below<'_>) -> Figure {
     let reach = [WIDE, HIGH].map(|share| share * below.half_length());
-    let cuts: Vec<_> = [0, 1].into_iter().flat_map(|body| below.section(body, reach)).collect();
+    let mut cuts: Vec<_> = [0, 1].into_iter().flat_map(|body| below.section(body, reach)).collect();
+    // nothing is drawn beyond the axes
+    let within = |corner: &[f64; 2]| corner[0].abs() <= reach[0] && corner[1].abs() <= reach[1];
+    cuts.retain(|(corners, _)| corners.iter().all(within));
     let values: Vec<f64> = cuts.iter().map(|(_, stress)| 1e-6 * von_mises(stress)).collect();
     let top = values.iter().fold(0.0, |top: f64, value| top.max(*value));
     let key = Key::Values {
@@ -29,12 +32,7 @@ pub(super) fn section(scene: &Scene<'_>, below: &Below<'_>) -> Figure {
         corners: corners.map(|at| at.map(|x| 1e3 * x)),
         colour: key.colour(*value),
     });
-    // nothing is drawn beyond the axes
-    let end = |axis: usize| {
-        let at = cuts.iter().flat_map(|(corners, _)| corners.map(|corner| corner[axis].abs()));
-        1e3 * at.fold(reach[axis], f64::max)
-    };
-    let [x, z] = [end(0), end(1)];
+    let [x, z] = reach.map(|reach| 1e3 * reach);
     let panel = Panel {
         to_scale: true,
         faces: faces.collect(),
