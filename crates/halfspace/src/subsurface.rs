@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn the_sum_over_cells_under_hertzs_pressure_meets_the_closed_form() {
+    fn the_sum_over_cells_under_the_pressure_of_hertz_meets_the_closed_form() {
         let ellipse = unit(Some(0.7));
         let (many, line) = (cells(&ellipse, 0.025), cells(&unit(None), 0.025));
         for z in [0.05, 0.3, 0.5, 1.5] {
