@@ -1,6 +1,10 @@
 //! Runs of half-spaces.
 
+use creepage::figures::Reference;
+use creepage::{Format, PlotOptions};
 use runs::{Results, run, small};
+use serde_json::{Value, json};
+use std::sync::atomic::AtomicBool;
 
 const MODEL: [&str; 2] = ["model=half-space", "mesh.zone.size=0.4e-3"];
 
@@ -122,4 +126,37 @@ fn a_creepage_that_a_table_holds_is_that_of_a_number() {
         let last = |run: &Results| run.history("creepage").last().copied().unwrap();
         assert!((last(&other) / last(&number) - 1.0).abs() < 1e-9, "{model:?}");
     }
+}
+
+#[test]
+fn the_reference_beside_a_run_is_its_steady_state_and_is_computed_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("run");
+    let sets = ["mesh.zone.size=0.25e-3", "half_space.inertia=false", "time.factor=0.5"];
+    let case = runs::load(&runs::project("tests/small.toml"), &[&MODEL[..1], &sets].concat());
+    let stop = AtomicBool::new(false);
+    creepage::run::run(&case, &runs::options(&out, 2), &stop, &mut |_| {}).unwrap();
+    let plot = || {
+        let reference = Some(Reference::HalfSpace);
+        let format = vec![Format::Svg];
+        creepage::plot(&PlotOptions { run: out.clone(), reference, format, ..Default::default() })
+            .unwrap();
+    };
+    let place = out.join("reference-half-space.json");
+    let kept = || serde_json::from_slice::<Value>(&std::fs::read(&place).unwrap()).unwrap();
+    let force = |of: &Value| of["traction_coefficient"].as_f64().unwrap();
+    let inputs = "young poisson density half_length half_width peak_pressure mu creepage lateral_creepage spin";
+    let mut of: serde_json::Map<_, _> =
+        inputs.split(' ').map(|name| (name.to_owned(), 1.0.into())).collect();
+    of.insert("creepage_version".into(), "".into());
+    let other = json!({ "of": of, "spacing": 1.0, "traction_coefficient": 9.0, "centreline": [] });
+    std::fs::write(&place, other.to_string()).unwrap();
+    plot();
+    let mut found = kept();
+    let run = runs::results(&out).number("/contact/traction_coefficient");
+    assert!((run / force(&found) - 1.0).abs() < 0.015, "{run} {found}");
+    found["traction_coefficient"] = 8.0.into();
+    std::fs::write(&place, found.to_string()).unwrap();
+    plot();
+    assert_eq!(force(&kept()), 8.0, "it was computed again");
 }

@@ -31,6 +31,7 @@ mod half_space_rolling;
 mod half_space_rupture;
 mod half_space_waves;
 mod hertz;
+mod hertz_stress;
 mod implicit;
 mod interface_patch;
 mod kalker;

@@ -8,8 +8,8 @@
 use crate::problem::Outcome;
 use crate::row::Row;
 use crate::{
-    Size, contact_turn, finite_body, free_block, grading_reflection, interface_patch, mindlin,
-    patch, rolling_limits, shear_column, sliding,
+    Size, contact_turn, finite_body, free_block, grading_reflection, hertz_stress, interface_patch,
+    mindlin, patch, rolling_limits, shear_column, sliding,
 };
 use contact::{ContactRestart, PenaltyContact};
 use friction::{Implicit, Lagged};
@@ -67,6 +67,17 @@ fn friction_one_per_cent_off_is_caught_by_the_sliding_block() {
         "distance to the stop",
         sliding::stop_exact(Size::Quick),
         sliding::stop_exact_with(Size::Quick, 1.01 * sliding::MU),
+    );
+}
+
+#[test]
+fn a_load_twenty_per_cent_up_is_caught_by_the_stress_below() {
+    catches(
+        "load 20 % up",
+        "hertz-stress",
+        "bar: greatest shear",
+        hertz_stress::run(Size::Quick),
+        hertz_stress::run_with(Size::Quick, &["load.normal=120e3"]),
     );
 }
 

@@ -2,10 +2,11 @@
 
 use crate::{
     Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz, implicit,
-    interface_patch, kalker, lamb, lysmer, mindlin, patch, perturbation_growth, rolling_dynamic,
-    rolling_limits, rolling_memory, rolling_sideways, rolling_steps, rupture, shear_column,
-    shear_column_penalty, slider_tables, sliding, steady_rolling, waves,
+    grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz,
+    hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, mindlin, patch,
+    perturbation_growth, rolling_dynamic, rolling_limits, rolling_memory, rolling_sideways,
+    rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
+    steady_rolling, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -154,6 +155,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "hertz-line",
         about: "A cylinder on a flat: the patch of Hertz",
         run: hertz::line,
+    },
+    Problem {
+        name: "hertz-stress",
+        about: "The disk pressed on the bar: greatest shear below the patch, and its depth, of Hertz",
+        run: hertz_stress::run,
     },
     Problem {
         name: "cattaneo",

@@ -19,6 +19,7 @@ use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use creepage::case::Case;
 use creepage::run::RunOptions;
+use creepage::{StressProfile, StressProfileOptions};
 use output::summary::{Mean, Status, Summary};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -224,12 +225,28 @@ pub(crate) fn run_at(h: f64, more: Vec<String>) -> Result<Summary, Cause> {
 
 /// The same of the case with this text and file name.
 pub(crate) fn run_case(text: &str, name: &str, sets: &[String]) -> Result<Summary, Cause> {
+    run_and_read(text, name, sets, |_, summary| Ok(summary))
+}
+
+/// The same, and what `read` finds in the folder of the run.
+fn run_and_read<T>(
+    text: &str,
+    name: &str,
+    sets: &[String],
+    read: impl FnOnce(&Path, Summary) -> Result<T, Cause>,
+) -> Result<T, Cause> {
     let case = Case::from_text(text, Path::new(name), sets)?;
     let folder = tempfile::tempdir()?;
-    let options = RunOptions {
-        case: name.into(),
-        out: Some(folder.path().join("run")),
-        ..RunOptions::default()
-    };
-    Ok(creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?)
+    let out = folder.path().join("run");
+    let options = RunOptions { case: name.into(), out: Some(out.clone()), ..RunOptions::default() };
+    let summary = creepage::run::run(&case, &options, &AtomicBool::new(false), &mut |_| {})?;
+    read(&out, summary)
+}
+
+/// The stress below the patch of the case with `sets`: of the disk and of the bar.
+pub(crate) fn stress_below(sets: &[String]) -> Result<[StressProfile; 2], Cause> {
+    run_and_read(CASE, "a-coulomb.toml", sets, |folder, _| {
+        let options = StressProfileOptions { run: folder.to_owned() };
+        Ok(creepage::stress_profile(&options)?)
+    })
 }

@@ -1,4 +1,4 @@
-//! Figures as plain data, written as SVG and PNG that look the same on every machine: the font
+//! Figures as plain data, written as SVG, PDF and PNG that look the same on every machine: the font
 //! comes with the program.
 //!
 //! A [`Figure`] is a grid of [`Panel`]s with a caption below them; a panel has two axes, coloured
@@ -20,6 +20,7 @@ mod layout;
 mod legend;
 mod palette;
 mod paper;
+mod pdf;
 mod raster;
 mod thin;
 mod write;

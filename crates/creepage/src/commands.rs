@@ -18,6 +18,7 @@ mod render;
 mod report;
 mod run;
 mod slider;
+mod stress_profile;
 mod sweep;
 mod sweep_folder;
 mod values;
@@ -45,6 +46,7 @@ pub use slider::{
     LawName, LawNumbers, MethodName, SettingError, Settings, SliderFound, SliderOptions,
     SliderResult, SliderRun, slider,
 };
+pub use stress_profile::{StressProfileOptions, stress_profile};
 pub use sweep::{SweepFound, SweepOptions, Swept, sweep};
 pub use sweep_folder::sweep_table;
 pub use verify::VerifyOptions;

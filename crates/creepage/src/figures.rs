@@ -6,10 +6,12 @@ mod histories;
 mod lines;
 mod maps;
 mod patch;
+mod reference;
 mod scatter;
 mod scene;
 pub mod slider;
 mod spectrum;
+mod subsurface;
 
 use crate::chart::Figure;
 use crate::check::PostError;
@@ -19,8 +21,10 @@ use crate::check::frames::ContactHistory;
 use crate::check::means::Sources;
 use crate::check::patch_series::PatchMeasure;
 use crate::check::window::{Span, Window};
+use crate::subsurface::Below;
 use output::layout::file;
 
+pub use reference::Reference;
 pub(crate) use scene::{FigureMeans, Instant, Scene};
 
 /// A figure with the name of its files.
@@ -34,13 +38,15 @@ pub struct Named {
     pub figure: Figure,
 }
 
-/// Which instants and probes are drawn.
+/// Which instants and probes are drawn, and beside what.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// Times of lines and maps (s); the last of the window where there are none.
     pub instants: Vec<f64>,
     /// Numbers of the probes; the first ones where there are none.
     pub probes: Vec<usize>,
+    /// What the tractions are drawn beside, where it is to be computed.
+    pub reference: Option<Reference>,
 }
 
 /// All figures of a run for which it has the data. Lines and maps are drawn at the last record of the window and
@@ -48,8 +54,8 @@ pub struct Choice {
 /// records; `window` as in [`Criteria`](crate::check::Criteria).
 ///
 /// # Errors
-/// Files that cannot be read or lack data or scales that the figures need; a window without a record; an instant or a probe
-/// that the run does not have.
+/// Files that cannot be read or lack data or scales that the figures need; a window without a record; an instant, a probe or a
+/// reference that the run does not have.
 pub fn figures(
     paths: &RunPaths,
     basis: &mut Basis,
@@ -57,73 +63,24 @@ pub fn figures(
     choice: &Choice,
 ) -> Result<Vec<Named>, PostError> {
     let history = ContactHistory::open(&paths.contact)?;
-    let window = Window::resolve(window, basis, &history)?;
-    let records = window.records.clone();
-    let scales = Scales::resolve(basis, &history, &records)?;
-    let body = history.surface.bodies().last().copied().unwrap_or(0);
-    let sources = Sources::of(paths, basis, &window)?;
-    let means = FigureMeans {
-        normal_force: sources.mean(PatchMeasure::NormalForce),
-        creepage: sources.mean(PatchMeasure::Creepage),
-        traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
-    };
-    let window = window.ends(&history.times);
-    let (instants, halves) = (Vec::new(), scene::halves(&history.surface));
-    let mut scene = Scene {
-        history: &history,
-        basis,
-        scales,
-        body,
-        records,
-        window,
-        means,
-        instants,
-        halves,
-        line_reach: 0.0,
-    };
-    for index in scene.instant_indices(&choice.instants)? {
-        let frame = history.record(index)?;
-        let centre = scene.centre(&frame);
-        scene.instants.push(Instant { frame, centre });
-    }
-    scene.line_reach = scene.reach_of_lines();
-    let band = maps::Band::gather(&scene)?;
-    let mut all = vec![
-        Named {
-            stem: "figure-1-velocities",
-            about: "velocities of the surface nodes along y = 0, and the slip velocity",
-            figure: lines::velocities(&scene),
-        },
-        Named {
-            stem: "figure-2-stick-slip",
-            about: "where and how fast the patch slips, at up to three instants",
-            figure: maps::stick_slip(&scene),
-        },
-        Named {
-            stem: "figure-3-tractions",
-            about: "pressure, shear and the bound of friction along y = 0",
-            figure: lines::tractions(&scene),
-        },
-        Named {
-            stem: "figure-4-bound",
-            about: "the bound that the slip velocity implies, beside the shear",
-            figure: lines::bound(&scene),
-        },
-        Named {
-            stem: "figure-7-law",
-            about: "shear over pressure against slip speed, over the friction law",
-            figure: scatter::law(&scene, &band),
-        },
-        Named {
-            stem: "space-time",
-            about: "slip along y = 0 over time",
-            figure: maps::space_time(&scene, &band),
-        },
-    ];
+    let scene = scene(&history, paths, basis, window, &choice.instants)?;
+    let mut all = lines_and_law(&scene, paths, choice.reference)?;
     if let Some(figure) = patch::maps(&scene) {
         let about =
             "maps of the patch at an instant: tractions, slip velocity, stick and slip, friction";
         all.push(Named { stem: "contact-maps", about, figure });
+    }
+    if let Some(below) = Below::read(paths, &history, scene.basis, &scene.scales)? {
+        all.push(Named {
+            stem: "stress-section",
+            about: "von Mises stress of both bodies at y = 0",
+            figure: subsurface::section(&scene, &below),
+        });
+        all.push(Named {
+            stem: "stress-depth",
+            about: "stress over the depth below the patch, beside half-spaces",
+            figure: subsurface::depth(&scene, &below),
+        });
     }
     if let Some(figure) = histories::histories(&scene, &paths.folder.join(file::HISTORY))? {
         let about = "forces, creepage, patch and energies over time";
@@ -136,4 +93,82 @@ pub fn figures(
         all.push(Named { stem: "spectrum", about, figure });
     }
     Ok(all)
+}
+
+/// What the figures of a run are drawn from.
+fn scene<'a>(
+    history: &'a ContactHistory,
+    paths: &RunPaths,
+    basis: &'a mut Basis,
+    window: Option<Span>,
+    instants: &[f64],
+) -> Result<Scene<'a>, PostError> {
+    let window = Window::resolve(window, basis, history)?;
+    let records = window.records.clone();
+    let scales = Scales::resolve(basis, history, &records)?;
+    let sources = Sources::of(paths, basis, &window)?;
+    let means = FigureMeans {
+        normal_force: sources.mean(PatchMeasure::NormalForce),
+        creepage: sources.mean(PatchMeasure::Creepage),
+        traction_coefficient: sources.mean(PatchMeasure::TractionCoefficient),
+    };
+    let mut scene = Scene {
+        history,
+        basis,
+        scales,
+        body: history.surface.bodies().last().copied().unwrap_or(0),
+        records,
+        window: window.ends(&history.times),
+        means,
+        instants: Vec::new(),
+        halves: history.surface.halves(),
+        line_reach: 0.0,
+    };
+    for index in scene.instant_indices(instants)? {
+        let frame = history.record(index)?;
+        let centre = scene.centre(&frame);
+        scene.instants.push(Instant { frame, centre });
+    }
+    scene.line_reach = scene.reach_of_lines();
+    Ok(scene)
+}
+
+/// The figures that every run has: those of the papers, and slip over time.
+fn lines_and_law(
+    scene: &Scene<'_>,
+    paths: &RunPaths,
+    reference: Option<Reference>,
+) -> Result<Vec<Named>, PostError> {
+    let computed =
+        reference.map(|Reference::HalfSpace| reference::steady(scene, paths)).transpose()?;
+    let band = maps::Band::gather(scene)?;
+    let named = |stem, about, figure| Named { stem, about, figure };
+    Ok(vec![
+        named(
+            "figure-1-velocities",
+            "velocities of the surface nodes along y = 0, and the slip velocity",
+            lines::velocities(scene),
+        ),
+        named(
+            "figure-2-stick-slip",
+            "where and how fast the patch slips, at up to three instants",
+            maps::stick_slip(scene),
+        ),
+        named(
+            "figure-3-tractions",
+            "pressure, shear and the bound of friction along y = 0",
+            lines::tractions(scene, computed),
+        ),
+        named(
+            "figure-4-bound",
+            "the bound that the slip velocity implies, beside the shear",
+            lines::bound(scene),
+        ),
+        named(
+            "figure-7-law",
+            "shear over pressure against slip speed, over the friction law",
+            scatter::law(scene, &band),
+        ),
+        named("space-time", "slip along y = 0 over time", maps::space_time(scene, &band)),
+    ])
 }

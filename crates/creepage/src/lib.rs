@@ -111,6 +111,7 @@ pub mod rule;
 pub mod run;
 pub mod scenario;
 pub mod scene;
+pub mod subsurface;
 pub mod sweep;
 pub mod trends;
 
@@ -128,4 +129,5 @@ pub use ls_dyna::Units;
 pub use output::summary::Summary;
 pub use run::{BlockElement, Level, RunOptions};
 pub use scenario::{Cost, Progress, Stage};
+pub use subsurface::StressProfile;
 pub use sweep::{Cell, Column, SweepResult, Table, Watched};

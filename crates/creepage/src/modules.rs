@@ -14,7 +14,7 @@ const ORDER: [&[&str]; 11] = [
     &["check"],
     &["sweep"],
     &["ls_dyna"],
-    &["figures", "compare", "trends", "scene", "report"],
+    &["figures", "compare", "trends", "scene", "subsurface", "report"],
     &["commands"],
 ];
 

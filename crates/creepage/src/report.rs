@@ -110,7 +110,8 @@ pub fn scene_page(folder: &Path) -> Result<String, SceneError> {
 }
 
 /// Figures of the section about the patch, and of that about the contact conditions.
-const PATCH_FIGURES: [&str; 3] = ["figure-3-tractions", "contact-maps", "figure-2-stick-slip"];
+const PATCH_FIGURES: [&str; 5] =
+    ["figure-3-tractions", "contact-maps", "figure-2-stick-slip", "stress-section", "stress-depth"];
 const CONDITION_FIGURES: [&str; 2] = ["figure-4-bound", "figure-7-law"];
 
 /// Appends those of the figures that have these names, in the order of the names.
@@ -152,9 +153,7 @@ pub(crate) fn escape(text: &str) -> String {
 fn half_space(basis: &Basis, measure: PatchMeasure) -> Option<f64> {
     use PatchMeasure as P;
     let known = [P::HalfLength, P::HalfWidth, P::PeakPressure].contains(&measure);
-    let scale = basis.scales.get(measure.name());
-    let scale = scale.filter(|scale| !scale.from.contains("last record"));
-    scale.filter(|_| known).map(|scale| scale.value)
+    basis.hertz(measure.name()).filter(|_| known)
 }
 
 /// A mean to the digit that half its 95 % interval leaves it, at most four; to four where it has none.

@@ -11,6 +11,8 @@ mod source;
 mod still;
 
 pub use error::SceneError;
+pub(crate) use quantity::Drawable;
+pub(crate) use source::{Source, ends};
 
 use crate::chart::Figure;
 use crate::check::PostError;
@@ -20,10 +22,10 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use nalgebra::Vector3;
 use output::layout::file;
-use quantity::{Drawable, Quantity};
+use quantity::Quantity;
 use rigid::Rigid;
 use serde::{Serialize, Serializer};
-use source::{Record, Source};
+use source::Record;
 use std::collections::BTreeMap;
 use std::path::Path;
 

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use creepage::{CheckResult, Summary, SweepResult};
+use creepage::{CheckResult, StressProfile, Summary, SweepResult};
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
 use std::fmt::Write;
@@ -16,6 +16,8 @@ A number that is not finite is None.
 
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from typing_extensions import NotRequired, TypedDict
 
 ";
@@ -26,6 +28,7 @@ fn definitions() -> Map<String, Value> {
     generator.subschema_for::<Summary>();
     generator.subschema_for::<CheckResult>();
     generator.subschema_for::<SweepResult>();
+    generator.subschema_for::<StressProfile>();
     let mut definitions = generator.take_definitions(true);
     definitions.sort_keys();
     definitions
@@ -48,6 +51,9 @@ fn words(schema: &Value) -> Vec<&str> {
 fn of(schema: &Value) -> String {
     if let Some(name) = referred(schema) {
         return name.to_owned();
+    }
+    if schema["x-numpy"] == true {
+        return "NDArray[np.float64]".into();
     }
     let words = words(schema);
     if !words.is_empty() {

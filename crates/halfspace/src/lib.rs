@@ -30,19 +30,25 @@ mod compliance;
 mod ellipse;
 mod fault;
 mod history;
+mod kalker;
 mod kernel;
 mod plane;
 mod quadrature;
 mod return_mapping;
 mod rolling;
+mod steady;
+mod subsurface;
 mod tangential;
 
 pub use compliance::{Compliance, HalfSpaces};
 pub use ellipse::Ellipse;
 pub use fault::{Fault, FaultSetup};
+pub use kalker::{ClosedForms, c11};
 pub use kernel::{Extent, Kernel, KernelError};
 pub use quadrature::Quadrature;
 pub use rolling::{
     Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,
     StepSums,
 };
+pub use steady::{SteadyError, SteadyRolling, steady};
+pub use subsurface::{LoadedCell, plane_stress_below, stress_below};

@@ -210,12 +210,19 @@ impl BackgroundWriter {
 pub struct Snapshot<'a>(&'a mut Buffer);
 
 impl Snapshot<'_> {
-    /// Writes the next field: a vector x, y, z at every point, in the units of the field.
+    /// Writes the next field: three numbers at every point or on every cell, in the units of the field.
     pub fn vectors(&mut self, values: impl ExactSizeIterator<Item = [f64; 3]>) {
         let count = values.len();
         self.0.numbers.reserve_exact(3 * count);
         self.0.numbers.extend(values.flatten());
         self.0.shapes.push(Shape { components: 3, integer: false, count });
+    }
+
+    /// Writes the next field: a number at every point or on every cell, in the units of the field.
+    pub fn scalars(&mut self, values: impl ExactSizeIterator<Item = f64>) {
+        let count = values.len();
+        self.0.numbers.extend(values);
+        self.0.shapes.push(Shape { components: 1, integer: false, count });
     }
 
     /// Writes the next field: `fill` writes `count` symmetric tensors, xx yy zz xy yz xz, over zeros, in the units

@@ -51,6 +51,8 @@ shapes! {
     label: 1, true, false;
     /// A number on every cell.
     cell_scalar: 1, false, true;
+    /// Three numbers on every cell.
+    cell_vector: 3, false, true;
     /// A symmetric tensor on every cell, xx yy zz xy yz xz.
     cell_tensor: 6, false, true;
     /// An integer from 0 to 255 on every cell.

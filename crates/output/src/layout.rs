@@ -31,6 +31,7 @@ names! {
         POSTMORTEM = "postmortem.vtkhdf", "both bodies as they were when the guards stopped the run";
         SUMMARY = "summary.json", "what `creepage run --json` prints";
         LOG = "run.log", "what the run said";
+        REFERENCE = "reference-half-space.json", "steady rolling of half-spaces beside the run";
     }
 }
 
@@ -186,7 +187,8 @@ datasets! {
 }
 
 datasets! {
-    /// Fields of `fields.vtkhdf` in the global frame; `stress` unless the case leaves it out.
+    /// Fields of `fields.vtkhdf` in the global frame; the stresses are those that the case asks for, tension
+    /// positive.
     BodyFields, BODIES {
         displacement: vector("m", "displacement from the undeformed state"),
         deformation: vector(
@@ -194,6 +196,10 @@ datasets! {
         ),
         velocity: vector("m/s", "velocity over the last step"),
         stress: cell_tensor("Pa", "Cauchy stress, xx yy zz xy yz xz"),
+        von_mises: cell_scalar("Pa", "von Mises stress"),
+        max_shear: cell_scalar("Pa", "largest shear stress, half of largest less smallest principal stress"),
+        hydrostatic: cell_scalar("Pa", "hydrostatic stress, a third of the trace"),
+        principal: cell_vector("Pa", "principal stresses, the largest first"),
     }
 }
 

@@ -7,7 +7,10 @@ use output::summary::dotted_keys;
 
 /// Names in the order of the files: scripts rely on them.
 const NAMES: [(&str, &str); 5] = [
-    ("fields.vtkhdf", "displacement deformation velocity stress body"),
+    (
+        "fields.vtkhdf",
+        "displacement deformation velocity stress von_mises max_shear hydrostatic principal body",
+    ),
     (
         "contact.vtkhdf",
         "pressure shear slip_velocity slip mu state gap velocity displacement pass_pressure body area",

@@ -57,6 +57,12 @@ pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     held(options, listen, |options, _| Ok(Answer::new(0, &creepage::plot(&options)?)))
 }
 
+/// The stress over the depth below the patch of a run, of the disk and of the bar.
+#[pyfunction]
+pub fn stress_profile<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::stress_profile(&options)?)))
+}
+
 /// Writes the page with the interactive scene of a run.
 #[pyfunction]
 pub fn view<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {

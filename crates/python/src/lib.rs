@@ -25,7 +25,8 @@ mod _creepage {
 
     #[pymodule_export]
     use crate::commands::{
-        check, import_k, interface_of_k, main, mesh, plot, report, run, schema, slider, sweep, view,
+        check, import_k, interface_of_k, main, mesh, plot, report, run, schema, slider,
+        stress_profile, sweep, view,
     };
     #[pymodule_export]
     use crate::contact::ContactWriter;

@@ -146,6 +146,10 @@ def test_what_cannot_be_drawn_is_refused_with_a_remedy(copy, capsys, tmp_path):
     assert "there is no such file or folder" in refused(capsys, tmp_path / "nothing")
     assert "is a case or a sweep, and no run" in refused(capsys, copy.path / "case.toml")
     with h5py.File(copy.path / "fields.vtkhdf", "r+") as file:
+        del file["VTKHDF/CellData/von_mises"]
+    assert _render_command.main([str(copy.path), "--width", "300", "--out", str(tmp_path / "tensor.png")]) == 0
+    capsys.readouterr()
+    with h5py.File(copy.path / "fields.vtkhdf", "r+") as file:
         del file["VTKHDF/CellData/stress"]
     assert "holds no field stress" in (said := refused(capsys, copy.path, "--field", "von_mises"))
     assert "help: run the case with output.stress = true" in said

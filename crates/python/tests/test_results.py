@@ -94,7 +94,7 @@ def test_a_check_is_the_document_of_the_command_line(small):
 
 
 def test_figures_and_the_page_are_written(small, tmp_path):
-    figures = small.figures(tmp_path, format="svg")
+    figures = small.figures(tmp_path, format=["svg", "pdf"])
     assert figures and all(file.stat().st_size > 0 for files in figures.values() for file in files)
     page = small.report(tmp_path / "page.html")
     assert page.read_text().lstrip().lower().startswith("<!doctype html")
@@ -112,3 +112,15 @@ def test_every_dataset_of_a_run_is_declared_with_its_units(small):
         assert {name: field.units for name, field in records.items()}.items() <= declared.items()
     declared = [(name, units) for name, units, *_ in layout["history.h5"]]
     assert sorted(declared) == sorted(small.history.units.items())
+
+
+def test_the_stress_below_the_patch_stands_beside_that_of_half_spaces(small):
+    profiles = small.stress_profile()
+    assert list(profiles) == ["disk", "bar"]
+    bar = profiles["bar"]
+    assert bar["depth"].ndim == 1 and (np.diff(bar["depth"]) > 0).all() and bar["time"] == small.fields.times[-1]
+    for source in ("elements", "half_space", "hertz"):
+        assert {values.shape for values in bar[source].values()} == {bar["depth"].shape}
+    inside = bar["depth"] < 2 * bar["half_length"]
+    away = np.abs(bar["elements"]["zz"] - bar["half_space"]["zz"])[inside]
+    assert away.max() < 0.15 * bar["peak_pressure"]

@@ -19,6 +19,7 @@ mod full;
 mod full_stiffness;
 mod gauss;
 mod geometry;
+pub mod invariants;
 mod kernel;
 mod lanes;
 pub mod linear;

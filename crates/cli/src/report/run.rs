@@ -243,7 +243,7 @@ fn how_to_look(out: &mut String, summary: &Summary, folder: &Path) {
     let (grid, look) = if files.fields.is_empty() {
         (&files.contact, "colour by pressure, shear, slip_velocity or state")
     } else {
-        let look = "Filters > Warp By Vector: displacement; colour by velocity or stress";
+        let look = "Filters > Warp By Vector: displacement; colour by von_mises";
         (&files.fields, look)
     };
     let _ = write!(

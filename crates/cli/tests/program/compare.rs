@@ -90,7 +90,7 @@ fn one_run_a_window_without_records_and_a_figure_of_another_kind_are_refused() {
         (&["compare", run, run, "--transits", "1000"], "before the first record"),
         (&["check", run, "--transits", "0"], "greater than 0"),
         (&["check", run, "--transits", "1", "--window", "0:1"], "cannot be used with"),
-        (&["compare", run, run, "--plot", "slip.pdf"], "must end in .svg or .png"),
+        (&["compare", run, run, "--plot", "slip.jpg"], "must end in .svg, .pdf or .png"),
         (&["compare", run, "nowhere"], "nowhere: there is no such file or folder"),
     ] {
         let output = creepage(args);

@@ -110,6 +110,8 @@ fn instants_width_and_captions_of_figures_can_be_chosen() {
         (["--at", "1"], "the records are from 0 to"),
         (["--width", "3"], "from 30 to 1000"),
         (["--font-size", "90"], "from 4 to 24"),
+        (["--reference", "contact"], "half-space is the one reference"),
+        (["--reference", "half-space"], "--reference half-space: "),
     ] {
         let output = plot(&refused);
         assert_eq!(output.status.code(), Some(2));
@@ -133,7 +135,7 @@ fn one_format_can_be_chosen_and_bare_data_have_the_figures_that_they_allow() {
     assert_eq!(files.len(), 7);
     assert!(files.iter().all(|file| file.extension().unwrap() == "svg"));
     let refused = Command::new(env!("CARGO_BIN_EXE_creepage"))
-        .args(["plot", folder.path().to_str().unwrap(), "--format", "pdf"])
+        .args(["plot", folder.path().to_str().unwrap(), "--format", "gif"])
         .output()
         .unwrap();
     assert_eq!(refused.status.code(), Some(2));

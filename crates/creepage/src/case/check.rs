@@ -148,6 +148,12 @@ fn remedy(key: &Key, value: &Value) -> String {
         (Form::Word(words), Value::String(word)) => {
             nearest(word, words.iter().copied()).map(|near| format!("\"{near}\""))
         }
+        (Form::Words(words), _) => {
+            let given = value.as_array().map_or(std::slice::from_ref(value), Vec::as_slice);
+            let wrong = given.iter().filter_map(Value::as_str).filter(|w| !words.contains(w));
+            let near = wrong.filter_map(|word| nearest(word, words.iter().copied())).next();
+            near.map(|near| format!("\"{near}\""))
+        }
         (Form::Number(range) | Form::Crown(range) | Form::OverTime(range), Value::String(text)) => {
             quantity::in_unit(text, key.unit).filter(|x| range.holds(*x)).map(number)
         }

@@ -58,6 +58,8 @@ pub enum Form {
     Flag,
     /// One of these words.
     Word(&'static [&'static str]),
+    /// `true`, `false` or a list of these words.
+    Words(&'static [&'static str]),
     /// Any text.
     Text,
     /// `"flat"` or a radius in the range.
@@ -88,6 +90,7 @@ impl Form {
             Self::Count(low, high) => format!("a whole number from {low} to {high}"),
             Self::Flag => "true or false".into(),
             Self::Word(words) => quoted(words),
+            Self::Words(words) => format!("true or false, or a list of {}", quoted(words)),
             Self::Text => "text in quotes".into(),
             Self::Crown(range) => format!("\"flat\" or a number {range}{unit}"),
             Self::Stiffness => {
@@ -126,8 +129,13 @@ impl Form {
             (Self::Count(low, high), _) => {
                 whole(value).is_some_and(|n| (*low..=*high).contains(&n))
             }
-            (Self::Flag, Value::Boolean(_)) | (Self::Text, Value::String(_)) => true,
+            (Self::Flag | Self::Words(_), Value::Boolean(_)) | (Self::Text, Value::String(_)) => {
+                true
+            }
             (Self::Word(words), Value::String(word)) => words.contains(&word.as_str()),
+            (Self::Words(words), Value::Array(list)) => {
+                list.iter().all(|word| word.as_str().is_some_and(|word| words.contains(&word)))
+            }
             (Self::Stiffness, Value::Table(table)) => {
                 let named = |(name, range, _): &(&str, Range, _)| {
                     table.get(*name).and_then(float).is_some_and(|x| range.holds(x))

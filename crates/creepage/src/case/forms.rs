@@ -3,10 +3,13 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use output::FieldSpec;
+use output::layout::BODIES;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use toml::Value;
 
+use crate::case::section::words;
 use crate::case::value::{float, points};
 
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
@@ -139,5 +142,62 @@ impl JsonSchema for Creepage {
         json_schema!({
             "oneOf": [{ "type": "number" }, { "type": "array", "items": pair, "minItems": 2 }]
         })
+    }
+}
+
+words! {
+    /// A stress of the elements, tension positive.
+    StressField {
+        /// The tensor, xx yy zz xy yz xz.
+        #[default]
+        Tensor = "tensor",
+        /// Von Mises stress.
+        VonMises = "von_mises",
+        /// Largest shear stress.
+        MaxShear = "max_shear",
+        /// Hydrostatic stress.
+        Hydrostatic = "hydrostatic",
+        /// Principal stresses, the largest first.
+        Principal = "principal",
+    }
+}
+
+impl StressField {
+    /// All, in the order of the file.
+    pub const ALL: [Self; 5] =
+        [Self::Tensor, Self::VonMises, Self::MaxShear, Self::Hydrostatic, Self::Principal];
+
+    /// Its dataset.
+    pub fn dataset(self) -> &'static FieldSpec {
+        match self {
+            Self::Tensor => &BODIES.stress,
+            Self::VonMises => &BODIES.von_mises,
+            Self::MaxShear => &BODIES.max_shear,
+            Self::Hydrostatic => &BODIES.hydrostatic,
+            Self::Principal => &BODIES.principal,
+        }
+    }
+}
+
+/// Which stresses a run writes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Stresses {
+    /// The tensor and von Mises stress, or none.
+    Usual(bool),
+    /// These.
+    These(Vec<StressField>),
+}
+
+impl Stresses {
+    /// Those that are written, in the order of the file.
+    pub fn written(&self) -> impl Iterator<Item = StressField> {
+        let wanted = |field: &StressField| match self {
+            Self::Usual(all) => {
+                *all && [StressField::Tensor, StressField::VonMises].contains(field)
+            }
+            Self::These(these) => these.contains(field),
+        };
+        StressField::ALL.into_iter().filter(wanted)
     }
 }

@@ -7,9 +7,9 @@ pub use crate::case::bodies::{
     Bar, Disk, Ends, Grading, LengthUnit, Material, MaterialOverride, MeshSets, Meshing, Symmetry,
     Zone,
 };
-use crate::case::form::Form::{Count, Number, OverTime, Points, Text};
+use crate::case::form::Form::{Count, Number, OverTime, Points, Text, Words};
 use crate::case::form::{none_or_within, within};
-pub use crate::case::forms::{Creepage, Crown};
+pub use crate::case::forms::{Creepage, Crown, StressField, Stresses};
 use crate::case::key::{FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, word};
 use crate::case::section::{is_default, section, words};
 use crate::case::written::Written;
@@ -482,8 +482,13 @@ section! {
     optional Output {
         /// Interval of `fields.vtkhdf` (s). Default: a fortieth of the run.
         fields_interval: Option<f64> => INTERVAL.finite_elements_only();
-        /// Write the stress of every element to `fields.vtkhdf` (true or false). Default true.
-        stress: bool = true => FLAG.finite_elements_only();
+        /// Which stresses of every element `fields.vtkhdf` holds, tension positive: true for `tensor` and
+        /// `von_mises`, false for none, or a list: `"tensor"` (xx yy zz xy yz xz), `"von_mises"`, `"max_shear"` (half of
+        /// largest less smallest principal stress), `"hydrostatic"` (a third of the trace), `"principal"` (the largest
+        /// first). Default true.
+        stress: Stresses = Stresses::Usual(true)
+            => key(Words(StressField::WORDS), "", "give a list of names: [\"von_mises\", \"max_shear\"]")
+                .finite_elements_only();
         /// Interval of `contact.vtkhdf` outside windows (s). Default 5.7e-6, the paper's.
         contact_interval: f64 = 5.7e-6 => INTERVAL;
         /// Interval of `history.h5` (steps). Default 10.

@@ -249,7 +249,7 @@ fn line<DB: DrawingBackend>(
     const THICK: f64 = 1.1;
     let mut at: Vec<(i32, i32)> = points.iter().map(|point| whole(*point)).collect();
     at.dedup();
-    if pen.medium == Medium::Svg {
+    if !matches!(pen.medium, Medium::Bitmap(_)) {
         return pen.path(at, colour, THICK);
     }
     // the bitmap backend draws spikes at sharp turns of a path

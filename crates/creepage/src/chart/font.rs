@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 pub(crate) const NAME: &str = "DejaVu Sans";
 
 /// DejaVu Sans with the characters that figures use; its licence is beside it.
-static BYTES: &[u8] = include_bytes!("../../font/DejaVuSans-subset.ttf");
+pub(crate) static BYTES: &[u8] = include_bytes!("../../font/DejaVuSans-subset.ttf");
 
 /// Makes the font known to the drawing library; false if that failed.
 pub(crate) fn register() -> bool {

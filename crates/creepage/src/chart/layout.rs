@@ -24,6 +24,8 @@ pub(crate) const GAP: f64 = 5.0;
 pub(crate) enum Medium {
     /// SVG: its viewer joins the segments of lines; [`label::typeset`] makes subscripts afterwards.
     Svg,
+    /// PDF: its viewer joins the segments of lines; subscripts are drawn one by one.
+    Pdf,
     /// Pixels: segments of lines and subscripts are drawn one by one. A pixel of the picture is the mean of so many
     /// in each direction.
     Bitmap(u32),
@@ -108,10 +110,11 @@ impl<'a, DB: DrawingBackend> Pen<'a, DB> {
             HPos::Center => -width / 2,
             HPos::Right => -width,
         };
+        let too_high = if self.medium == Medium::Pdf { 0.0 } else { TOO_HIGH };
         for (run, share) in label::runs(text) {
             let lowered = if share < 1.0 { label::LOWERED } else { 0.0 };
             // the middle of smaller letters is nearer to their line
-            let down = self.px(size * (TOO_HIGH + lowered + MIDDLE * (1.0 - share)));
+            let down = self.px(size * (too_high + lowered + MIDDLE * (1.0 - share)));
             let (x, y) = turn.transform(along, down);
             // letters that begin on whole pixels of the picture are sharper, and alike wherever they stand
             let place = self.whole((at.0 + x, at.1 + y));

@@ -7,7 +7,7 @@ use crate::chart::{Figure, draw};
 const PER_MM: f64 = 96.0 / 25.4;
 const PER_PT: f64 = 96.0 / 72.0;
 /// The drawing library's size of a text over that of its letters.
-const LIBRARY: f64 = 1.24;
+pub(super) const LIBRARY: f64 = 1.24;
 /// Pixels per point of a screen: two, and on paper of a given width 300 per inch.
 const PIXELS: [f64; 2] = [2.0, 300.0 / 96.0];
 /// Least width of a panel beside another, and what of a panel's height axes and legend take (points of 1/96 inch).
@@ -47,6 +47,11 @@ impl Paper {
             Some(_) => format!("{:.2}mm", f64::from(points) * scale / PER_MM),
             None => (f64::from(points) * scale).to_string(),
         })
+    }
+
+    /// The same as PDF has them (points of 1/72 inch).
+    pub(crate) fn points(&self, laid_out: &Figure) -> [f64; 2] {
+        laid_out.size.map(|points| f64::from(points) * self.scale(laid_out) / PER_PT)
     }
 
     /// Pixels in a metre, where the size on paper is known.

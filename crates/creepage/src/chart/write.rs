@@ -1,8 +1,8 @@
-//! Writing a figure as SVG and PNG.
+//! Writing a figure as SVG, PDF and PNG.
 
 use crate::chart::layout::Medium;
 use crate::chart::{
-    Figure, Fill, Key, Panel, Paper, colour, draw, font, group, label, palette, raster,
+    Figure, Fill, Key, Panel, Paper, colour, draw, font, group, label, palette, pdf, raster,
 };
 use output::files::made::{self, Made, OutputRefused, XML_MARK};
 use plotters::prelude::*;
@@ -38,7 +38,7 @@ pub enum FigureError {
 /// A figure is not made from files, so that it cannot overwrite its input.
 const NO_INPUT: &[PathBuf] = &[];
 
-/// Pixels per point: fine enough that rounding to pixels does not show in print.
+/// Pixels per point in SVG and PDF: fine enough that rounding to pixels does not show in print.
 const SVG_UNIT: u32 = 4;
 
 /// Panels of a picture that is looked at as a whole: there the shades of edges matter less than the size of the file.
@@ -49,6 +49,8 @@ const MANY_PANELS: usize = 20;
 pub enum Format {
     /// Lines and text, for print and the web.
     Svg,
+    /// Lines and text, for print.
+    Pdf,
     /// Pixels.
     Png,
 }
@@ -58,6 +60,7 @@ impl Format {
     fn made(self) -> &'static Made {
         match self {
             Self::Svg => &made::SVG,
+            Self::Pdf => &made::PDF,
             Self::Png => &made::PNG,
         }
     }
@@ -66,6 +69,7 @@ impl Format {
     pub fn extension(self) -> &'static str {
         match self {
             Self::Svg => "svg",
+            Self::Pdf => "pdf",
             Self::Png => "png",
         }
     }
@@ -75,8 +79,10 @@ impl FromStr for Format {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let known = [Self::Svg, Self::Png].into_iter().find(|format| format.extension() == text);
-        known.ok_or("svg, png, or both with a comma between are needed")
+        let mut known = [Self::Svg, Self::Pdf, Self::Png].into_iter();
+        known
+            .find(|format| format.extension() == text)
+            .ok_or("svg, pdf or png, or several with a comma between, are needed")
     }
 }
 
@@ -112,6 +118,7 @@ impl Figure {
         let figure = paper.lay_out(self).map_err(undrawn)?;
         let file = match format {
             Format::Svg => figure.svg(&path, paper)?.into_bytes(),
+            Format::Pdf => pdf::pdf(&figure, paper.points(&figure), SVG_UNIT).map_err(undrawn)?,
             Format::Png => figure.png(paper).map_err(undrawn)?,
         };
         std::fs::write(&path, file).map_err(|cause| failed(&path, cause))?;
@@ -302,6 +309,31 @@ mod tests {
         assert_eq!(wide, 709); // 60 mm at 300 per inch
         let at = png.windows(4).position(|kind| kind == b"pHYs").unwrap();
         assert_eq!(u32::from_be_bytes(png[at + 4..at + 8].try_into().unwrap()), 11811);
+    }
+
+    #[test]
+    fn a_pdf_is_as_wide_as_asked_for_and_holds_its_letters_as_text() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut figure = figure();
+        figure.caption = "\u{3bc}_{S} = 0.5, creepage \u{2212}2.4\u{b7}10\u{207b}\u{b3}".into();
+        let paper = Paper { width: Some(90.0), ..Paper::SCREEN };
+        let write = || figure.write_as(folder.path(), "one", Format::Pdf, &paper).unwrap();
+        let (path, first) = (write(), std::fs::read(write()).unwrap());
+        assert_eq!(std::fs::read(&path).unwrap(), first);
+        let text: String = first.iter().map(|byte| char::from(*byte)).collect();
+        assert!(text.starts_with("%PDF-1.") && text.ends_with("%%EOF"), "{text}");
+        let after = |mark: &str| text[text.rfind(mark).unwrap() + mark.len()..].trim_start();
+        let xref: usize = after("startxref").split_whitespace().next().unwrap().parse().unwrap();
+        assert!(text[text.char_indices().nth(xref).unwrap().0..].starts_with("xref"));
+        let page: Vec<f64> =
+            after("/MediaBox [").split([' ', ']']).take(4).map(|n| n.parse().unwrap()).collect();
+        assert_eq!(page[..2], [0.0, 0.0]);
+        assert!((page[2] / 72.0 * 25.4 - 90.0).abs() < 1e-3, "{page:?}");
+        for letter in ["03BC", "2212", "00B7", "207B", "00B3"] {
+            assert!(text.contains(&format!("> <{letter}>")), "{letter}");
+        }
+        std::fs::write(&path, "%PDF-1.7 theirs").unwrap();
+        assert!(figure.write_as(folder.path(), "one", Format::Pdf, &paper).is_err());
     }
 
     #[test]

@@ -170,6 +170,12 @@ impl Basis {
         self.scales.get(name).map(|scale| scale.value)
     }
 
+    /// The scale `name` by Hertz (SI), where it is known apart from the records.
+    pub(crate) fn hertz(&self, name: &str) -> Option<f64> {
+        let scale = self.scales.get(name).filter(|scale| !scale.from.contains("last record"));
+        scale.map(|scale| scale.value)
+    }
+
     /// Sets a scale (SI) that is not known yet; `from` is its origin. Ignores names that are not in [`SCALES`], zero
     /// and values that are not finite.
     pub fn offer(&mut self, name: &str, value: f64, from: &str) {

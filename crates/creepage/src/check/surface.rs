@@ -79,6 +79,22 @@ impl Surface {
         rows
     }
 
+    /// Of each node the halves of the faces around it: in x and in y the ends of these, from the node (m). At the edge of
+    /// the surface they end at the node.
+    pub(crate) fn halves(&self) -> Vec<[[f64; 2]; 2]> {
+        let mut halves = vec![[[0.0f64; 2]; 2]; self.points.len()];
+        for face in &self.faces {
+            for [node, other] in face.iter().flat_map(|a| face.map(|b| [*a as usize, b as usize])) {
+                for axis in 0..2 {
+                    let half = 0.5 * (self.points[other][axis] - self.points[node][axis]);
+                    let [low, high] = &mut halves[node][axis];
+                    (*low, *high) = (low.min(half), high.max(half));
+                }
+            }
+        }
+        halves
+    }
+
     /// Labels of the bodies that have faces, sorted, each once.
     pub fn bodies(&self) -> Vec<u8> {
         let mut labels: Vec<u8> = self.face_body.clone();
@@ -119,5 +135,26 @@ mod tests {
         for (found, expected) in tributary_areas(&points, &faces).iter().zip(expected) {
             assert!((found - expected).abs() < 1e-15, "{found} {expected}");
         }
+    }
+
+    #[test]
+    fn the_cells_of_a_surface_cover_it_up_to_its_edge_and_no_further() {
+        // two rows of three nodes, 1 mm and then 3 mm apart
+        let xs = [0.0, 1e-3, 4e-3];
+        let points: Vec<Vector3<f64>> =
+            [0.0, 2e-3].iter().flat_map(|y| xs.map(|x| Vector3::new(x, *y, 0.0))).collect();
+        let surface = Surface {
+            points: points.clone(),
+            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
+            face_body: vec![0; 2],
+            body: vec![0; 6],
+            area: vec![0.0; 6],
+        };
+        let halves = surface.halves();
+        assert_eq!(halves[0], [[0.0, 0.5e-3], [0.0, 1e-3]]);
+        assert_eq!(halves[4], [[-0.5e-3, 1.5e-3], [-1e-3, 0.0]]);
+        let area: f64 =
+            halves.iter().map(|h| h.map(|[low, high]| high - low).iter().product::<f64>()).sum();
+        assert!((area / 8e-6 - 1.0).abs() < 1e-12);
     }
 }

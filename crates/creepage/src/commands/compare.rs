@@ -23,7 +23,7 @@ pub struct CompareOptions {
     #[cfg_attr(feature = "clap", command(flatten))]
     pub span: SpanOptions,
     /// Draw the slip along the centre line: mean in time and one standard deviation
-    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.svg|FILE.png",
+    #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.svg|FILE.pdf|FILE.png",
         value_parser = |file: &str| FIGURE.read(file)))]
     pub plot: Option<PathBuf>,
     /// What the runs are measured against.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::chart::{Format, Paper};
 use crate::check::{Depth, PostError};
-use crate::figures::Choice;
+use crate::figures::{Choice, Reference};
 use crate::sweep::SweepResult;
 use crate::trends::ComparedSweep;
 use serde::{Deserialize, Serialize};
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::Error;
 use crate::commands::check::{BasisOptions, SpanOptions, basis};
 use crate::commands::sweep_folder;
-use crate::commands::values::{FONT_SIZE, PAPER_WIDTH, all_parsed};
+use crate::commands::values::{FONT_SIZE, PAPER_WIDTH, all_parsed, maybe_parsed};
 
 /// What to draw.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -28,13 +28,13 @@ pub struct PlotOptions {
     /// Folder of a sweep by another method, whose creep-force curve is drawn beside; may be repeated
     #[cfg_attr(feature = "clap", arg(long, value_name = "SWEEP"))]
     pub with: Vec<PathBuf>,
-    /// Kinds of files, with a comma between
-    // none are both
+    /// Kinds of files: svg, pdf, png, with a comma between
+    // none are svg and png
     #[serde(deserialize_with = "all_parsed")]
-    #[cfg_attr(feature = "clap", arg(long, value_name = "svg,png", value_delimiter = ',',
+    #[cfg_attr(feature = "clap", arg(long, value_name = "KINDS", value_delimiter = ',',
         default_values = ["svg", "png"]))]
     pub format: Vec<Format>,
-    /// Width of a figure on paper (mm), with 300 pixels per inch [default: as on a screen]
+    /// Width of a figure on paper (mm), of PNG with 300 pixels per inch [default: as on a screen]
     #[cfg_attr(feature = "clap", arg(long, value_name = "MM",
         value_parser = |width: &str| PAPER_WIDTH.read(width)))]
     pub width: Option<f64>,
@@ -55,6 +55,11 @@ pub struct PlotOptions {
     /// Draw the spectra of these probes, with a comma between [default: the first six]
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", value_delimiter = ','))]
     pub probes: Vec<usize>,
+    /// Draw the tractions beside steady rolling of half-spaces at the run's mean creepage, which is computed (seconds) and kept
+    /// as reference-half-space.json in its folder: elliptic contact of one material with Coulomb friction
+    #[serde(deserialize_with = "maybe_parsed")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "half-space"))]
+    pub reference: Option<Reference>,
     /// Over which span of time; lines and maps are those at its end.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub span: SpanOptions,
@@ -95,10 +100,10 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
     let paper =
         Paper { width: options.width, font_size: options.font_size, caption: !options.no_caption };
     let (name, folder, figures) = if let Some(sweep) = sweep_folder::read(&options.run)? {
-        if !(options.at.is_empty() && options.probes.is_empty()) {
+        if !(options.at.is_empty() && options.probes.is_empty()) || options.reference.is_some() {
             return Err(Error::option(
-                format!("--at, --probes: {} is a sweep", options.run.display()),
-                "give the folder of one of its runs: only the figures of a run have instants and probes",
+                format!("--at, --probes, --reference: {} is a sweep", options.run.display()),
+                "give the folder of one of its runs: only the figures of a run have them",
             ));
         }
         let mut figures = crate::trends::sweep_figures(&options.run, &sweep);
@@ -116,7 +121,11 @@ pub fn plot(options: &PlotOptions) -> Result<Drawn, Error> {
         ));
     } else {
         let (paths, mut against) = basis(&options.run, &options.basis, Depth::Read)?;
-        let choice = Choice { instants: options.at.clone(), probes: options.probes.clone() };
+        let choice = Choice {
+            instants: options.at.clone(),
+            probes: options.probes.clone(),
+            reference: options.reference,
+        };
         let figures = crate::figures::figures(&paths, &mut against, window, &choice)?;
         let figures =
             figures.into_iter().map(|n| (n.stem.to_owned(), n.about.to_owned(), n.figure));

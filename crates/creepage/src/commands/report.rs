@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::check::{Criteria, Depth, Limits, PostError, Report};
-use crate::figures::Choice;
+use crate::figures::{Choice, Reference};
 use crate::report::ListedRun;
 use crate::sweep::SweepResult;
 use crate::trends::SweepVerdict;
@@ -17,6 +17,7 @@ use crate::Error;
 use crate::commands::check::{BasisOptions, basis, inputs};
 use crate::commands::outputs::{claim, shown};
 use crate::commands::sweep_folder;
+use crate::commands::values::maybe_parsed;
 
 /// What to write a page about.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -29,6 +30,10 @@ pub struct ReportOptions {
     /// The page [default: report.html in that folder]
     #[cfg_attr(feature = "clap", arg(long, value_name = "FILE.html"))]
     pub out: Option<PathBuf>,
+    /// Draw the tractions of a run beside steady rolling of half-spaces, as `creepage plot` does
+    #[serde(deserialize_with = "maybe_parsed")]
+    #[cfg_attr(feature = "clap", arg(long, value_name = "half-space"))]
+    pub reference: Option<Reference>,
     /// What the run is measured against.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub basis: BasisOptions,
@@ -63,6 +68,15 @@ impl Reported {
 /// Results that cannot be read; a page that cannot be written, or would be written over another file.
 pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
     let place = |folder: &Path| options.out.clone().unwrap_or_else(|| folder.join("report.html"));
+    if options.reference.is_some()
+        && !options.run.join(file::CONTACT).exists()
+        && options.run.is_dir()
+    {
+        return Err(Error::option(
+            format!("--reference: {} is no run", options.run.display()),
+            "give the folder of a run",
+        ));
+    }
     let (text, reported) = if let Some(found) = sweep_folder::read(&options.run)? {
         let page = place(&options.run);
         claim("--out", &page, &PAGE, &[options.run.join("sweep.json")])?;
@@ -85,7 +99,8 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
             map: None,
         };
         let checked = crate::check::check(&paths, &mut against, &wanted)?;
-        let figures = crate::figures::figures(&paths, &mut against, None, &Choice::default())?;
+        let choice = Choice { reference: options.reference, ..Choice::default() };
+        let figures = crate::figures::figures(&paths, &mut against, None, &choice)?;
         let text = crate::report::run_page(&against, &paths.folder, &checked.result, &figures)?;
         (text, Reported { pass: Some(checked.result.pass), ..Reported::of(page) })
     };

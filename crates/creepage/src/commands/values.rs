@@ -50,8 +50,8 @@ pub const MAP: Rule<PathBuf> =
     Rule { holds: |path| ends(path, &["vtkhdf"]), wanted: "the file's name must end in .vtkhdf" };
 /// The file of a figure.
 pub const FIGURE: Rule<PathBuf> = Rule {
-    holds: |path| ends(path, &["svg", "png"]),
-    wanted: "the file's name must end in .svg or .png",
+    holds: |path| ends(path, &["svg", "pdf", "png"]),
+    wanted: "the file's name must end in .svg, .pdf or .png",
 };
 
 fn ends(path: &Path, endings: &[&str]) -> bool {

@@ -8,20 +8,32 @@ use crate::check::law::Law;
 /// reference wheel; the head of the file states its parameters.
 const TABLE: &str = include_str!("../../../../verification/data/steady-rolling-y0.csv");
 /// T/N of its columns of shear.
-const TRACTIONS: [(f64, usize); 3] = [(0.15, 2), (0.28, 4), (0.40, 6)];
+pub(super) const TRACTIONS: [(f64, usize); 3] = [(0.15, 2), (0.28, 4), (0.40, 6)];
 /// Its coefficient of friction, Poisson's ratio, half axes (m) and peak pressure (Pa).
-const MU: f64 = 0.5;
+pub(super) const MU: f64 = 0.5;
 const POISSON: f64 = 0.3;
-const HALF_AXES: [f64; 2] = [7.1617e-3, 5.3872e-3];
-const PEAK_PRESSURE: f64 = 1.23756e9;
+pub(super) const HALF_AXES: [f64; 2] = [7.1617e-3, 5.3872e-3];
+pub(super) const PEAK_PRESSURE: f64 = 1.23756e9;
 
 /// Largest difference of T/(mu N) from that of the table.
 const NEAR: f64 = 0.05;
 
-/// Shear along y = 0 of half-spaces: label, and points x (m), p_f (Pa).
-pub(super) struct Reference {
+/// Shear along y = 0 of half-spaces as it is drawn: label, points x (m), p_f (Pa), and what the caption says.
+pub(super) struct Drawn {
     pub label: String,
     pub points: Vec<[f64; 2]>,
+    pub text: String,
+}
+
+/// A column of the table: points x (m), p_f (Pa).
+pub(super) fn profile(column: usize) -> Vec<[f64; 2]> {
+    let rows =
+        TABLE.lines().filter(|line| line.starts_with(|c: char| c == '-' || c.is_ascii_digit()));
+    let points = rows.filter_map(|line| {
+        let number = |column: usize| line.split(',').nth(column)?.parse::<f64>().ok();
+        Some([1e-3 * number(0)?, 1e6 * number(column)?])
+    });
+    points.collect()
 }
 
 /// The reference for a case, where there is one.
@@ -30,7 +42,7 @@ pub(super) struct Reference {
 /// x/a depends on Poisson's ratio, a/b and T/(mu N) alone. A case therefore has a reference where its friction is
 /// Coulomb's, its Poisson's ratio is 0.3, its a/b within 1 % of the table's, and its T/(mu N) within 0.05 of one of
 /// 0.30, 0.56 and 0.80.
-pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
+pub(super) fn shear(scene: &Scene<'_>) -> Option<Drawn> {
     let basis = scene.basis;
     let Some(Law::Coulomb(law)) = basis.law else {
         return None;
@@ -48,17 +60,14 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Reference> {
         return None;
     }
     let (along, up) =
-        (1e-3 * a / HALF_AXES[0], law.mu / MU * scene.hertz("peak_pressure")? / PEAK_PRESSURE);
-    let rows =
-        TABLE.lines().filter(|line| line.starts_with(|c: char| c == '-' || c.is_ascii_digit()));
-    let points = rows.filter_map(|line| {
-        let number = |column: usize| line.split(',').nth(column)?.parse::<f64>().ok();
-        Some([along * number(0)?, 1e6 * up * number(column)?])
-    });
+        (a / HALF_AXES[0], law.mu / MU * scene.hertz("peak_pressure")? / PEAK_PRESSURE);
     let traction = of * law.mu / MU;
-    Some(Reference {
+    Some(Drawn {
         label: format!("p_{{f}}, half-space (CONTACT) at T/N = {traction:.3}"),
-        points: points.collect(),
+        points: profile(column).into_iter().map(|[x, p]| [along * x, up * p]).collect(),
+        text: " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \
+               nearest T/N computed."
+            .into(),
     })
 }
 

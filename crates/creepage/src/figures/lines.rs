@@ -1,7 +1,7 @@
 //! Lines along y = 0 at up to three instants.
 
 use super::caption::{caption, instants};
-use super::half_space;
+use super::half_space::{self, Drawn};
 use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::chart::{Axis, Draw, Figure, Panel, Series, colour};
 use crate::check::surface::body_name;
@@ -76,8 +76,8 @@ pub(super) fn velocities(scene: &Scene<'_>) -> Figure {
     Figure { size: [360 * columns as u32, 400], columns, panels, caption: caption(scene, &text) }
 }
 
-/// Figure 3: pressure and shear along y = 0 with the bounds of friction.
-pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
+/// Figure 3: pressure and shear along y = 0 with the bounds of friction, beside a reference that was computed or else is known.
+pub(super) fn tractions(scene: &Scene<'_>, computed: Option<Drawn>) -> Figure {
     let mega = |values: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
         values.into_iter().map(|[x, p]| [x, 1e-6 * p]).collect()
     };
@@ -118,9 +118,9 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
             draw: Draw::Line(colour::ORANGE),
         });
     }
-    let reference = half_space::shear(scene);
-    let has_reference = reference.is_some();
-    if let Some(reference) = reference {
+    let mut beside = String::new();
+    if let Some(reference) = computed.or_else(|| half_space::shear(scene)) {
+        beside = reference.text;
         series.push(Series {
             label: reference.label,
             points: reference.points.into_iter().map(|[x, p]| [1e3 * x, 1e-6 * p]).collect(),
@@ -146,12 +146,7 @@ pub(super) fn tractions(scene: &Scene<'_>) -> Figure {
              of friction (dashed) is that of the last."
         ),
     };
-    if has_reference {
-        text.push_str(
-            " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \
-             nearest T/N computed.",
-        );
-    }
+    text.push_str(&beside);
     Figure { size: [760, 500], columns: 1, panels, caption: caption(scene, &text) }
 }
 

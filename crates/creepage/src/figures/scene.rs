@@ -4,7 +4,6 @@ use crate::chart::colour;
 use crate::check::basis::Basis;
 use crate::check::frames::{ContactHistory, Frame};
 use crate::check::patch_series;
-use crate::check::surface::Surface;
 use crate::check::{PostError, Scales};
 use nalgebra::Vector3;
 use std::ops::Range;
@@ -49,21 +48,6 @@ pub(crate) struct Scene<'a> {
     pub halves: Vec<[[f64; 2]; 2]>,
     /// Half the range of x of lines along y = 0 (m).
     pub line_reach: f64,
-}
-
-/// The halves of the faces around each node, as [`Scene::halves`] has them. At the edge of the surface they end at the node.
-pub(crate) fn halves(surface: &Surface) -> Vec<[[f64; 2]; 2]> {
-    let mut halves = vec![[[0.0f64; 2]; 2]; surface.points.len()];
-    for face in &surface.faces {
-        for [node, other] in face.iter().flat_map(|a| face.map(|b| [*a as usize, b as usize])) {
-            for axis in 0..2 {
-                let half = 0.5 * (surface.points[other][axis] - surface.points[node][axis]);
-                let [low, high] = &mut halves[node][axis];
-                (*low, *high) = (low.min(half), high.max(half));
-            }
-        }
-    }
-    halves
 }
 
 impl Scene<'_> {
@@ -172,8 +156,7 @@ impl Scene<'_> {
 
     /// A measure of the patch by Hertz (SI), where it is known apart from the records.
     pub fn hertz(&self, name: &str) -> Option<f64> {
-        let scale = self.basis.scales.get(name).filter(|s| !s.from.contains("last record"));
-        scale.map(|scale| scale.value)
+        self.basis.hertz(name)
     }
 
     pub fn in_contact(&self, frame: &Frame, row: usize) -> bool {
@@ -189,30 +172,4 @@ impl Scene<'_> {
 /// A time in the legend.
 pub(crate) fn time_label(instant: &Instant) -> String {
     format!("t = {:.4} ms", 1e3 * instant.frame.time)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_cells_of_a_surface_cover_it_up_to_its_edge_and_no_further() {
-        // two rows of three nodes, 1 mm and then 3 mm apart
-        let xs = [0.0, 1e-3, 4e-3];
-        let points: Vec<Vector3<f64>> =
-            [0.0, 2e-3].iter().flat_map(|y| xs.map(|x| Vector3::new(x, *y, 0.0))).collect();
-        let surface = Surface {
-            points: points.clone(),
-            faces: vec![[0, 1, 4, 3], [1, 2, 5, 4]],
-            face_body: vec![0; 2],
-            body: vec![0; 6],
-            area: vec![0.0; 6],
-        };
-        let halves = halves(&surface);
-        assert_eq!(halves[0], [[0.0, 0.5e-3], [0.0, 1e-3]]);
-        assert_eq!(halves[4], [[-0.5e-3, 1.5e-3], [-1e-3, 0.0]]);
-        let area: f64 =
-            halves.iter().map(|h| h.map(|[low, high]| high - low).iter().product::<f64>()).sum();
-        assert!((area / 8e-6 - 1.0).abs() < 1e-12);
-    }
 }

@@ -5,7 +5,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use output::files::input;
-use output::files::made::{PAGE, PNG, SVG, wrote};
+use output::files::made::{PAGE, PDF, PNG, SVG, wrote};
+use output::layout::file;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use std::collections::BTreeMap;
@@ -13,8 +14,8 @@ use std::collections::BTreeMap;
 /// Folder of the figures.
 const FIGURES: &str = "figures";
 
-/// The figures of a run, each as SVG and PNG.
-pub const FIGURE_NAMES: [&str; 9] = [
+/// The figures of a run, each as SVG, PDF or PNG.
+pub const FIGURE_NAMES: [&str; 11] = [
     "figure-1-velocities",
     "figure-2-stick-slip",
     "figure-3-tractions",
@@ -22,6 +23,8 @@ pub const FIGURE_NAMES: [&str; 9] = [
     "figure-7-law",
     "space-time",
     "contact-maps",
+    "stress-section",
+    "stress-depth",
     "histories",
     "spectrum",
 ];
@@ -34,6 +37,7 @@ fn files() -> Vec<(PathBuf, Ours)> {
     let mut files: Vec<(PathBuf, Ours)> = vec![
         ("check.json".into(), is_check),
         ("check.json.partial".into(), |_| true),
+        (file::REFERENCE.into(), is_reference),
         ("report.html".into(), |path| wrote(path, &PAGE).unwrap_or(false)),
         ("render.png".into(), |path| wrote(path, &PNG).unwrap_or(false)),
         ("render-contact.png".into(), |path| wrote(path, &PNG).unwrap_or(false)),
@@ -41,6 +45,7 @@ fn files() -> Vec<(PathBuf, Ours)> {
     for name in FIGURE_NAMES {
         let place = |extension| Path::new(FIGURES).join(format!("{name}.{extension}"));
         files.push((place("svg"), |path| wrote(path, &SVG).unwrap_or(false)));
+        files.push((place("pdf"), |path| wrote(path, &PDF).unwrap_or(false)));
         files.push((place("png"), |path| wrote(path, &PNG).unwrap_or(false)));
     }
     files
@@ -58,6 +63,20 @@ struct Check {
 fn is_check(path: &Path) -> bool {
     let bytes = input::bytes(path, input::DOCUMENT).unwrap_or_default();
     serde_json::from_slice::<Check>(&bytes).is_ok()
+}
+
+/// What tells a reference from other files.
+#[derive(Deserialize)]
+struct Reference {
+    #[serde(rename = "of")]
+    _of: BTreeMap<String, IgnoredAny>,
+    #[serde(rename = "centreline")]
+    _centreline: IgnoredAny,
+}
+
+fn is_reference(path: &Path) -> bool {
+    let bytes = input::bytes(path, input::DOCUMENT).unwrap_or_default();
+    serde_json::from_slice::<Reference>(&bytes).is_ok()
 }
 
 /// Removes these files from `folder`, and the folder of figures if nothing is left in it. What does not look

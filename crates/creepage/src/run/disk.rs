@@ -32,7 +32,7 @@ impl Disk {
         let (nodes, elements) = (model.mesh.nodes.len() as f64, model.mesh.hexes.len() as f64);
         let dt = case.duration() / steps;
         let every = |interval: f64| (interval / dt).round().max(1.0);
-        let stress = if case.output.stress { 6.0 } else { 0.0 };
+        let stress: usize = case.output.stress.written().map(|s| s.dataset().components).sum();
         let snapshots = (case.duration() / case.fields_interval()).ceil().min(steps) + 1.0;
         // corners of a face are shared by four, but for the borders
         // and those of half a model have mirror images
@@ -50,7 +50,7 @@ impl Disk {
             || case.checkpoint.steps.is_some()
             || case.checkpoint.time.is_some();
         Self {
-            fields: mesh + FIELDS * snapshots * 8.0 * (9.0 * nodes + stress * elements),
+            fields: mesh + FIELDS * snapshots * 8.0 * (9.0 * nodes + stress as f64 * elements),
             contact: CONTACT * records * CONTACT_NODE * zone,
             history: 8.0 * (HISTORY * rows + PROBE * probes * steps),
             checkpoints: if kept { 2.0 * 8.0 * CHECKPOINT * nodes } else { 0.0 },

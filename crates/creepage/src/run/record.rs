@@ -11,7 +11,7 @@ pub(crate) use self::basis::RecordBasis;
 use self::contact::{ContactRecord, RollingStep};
 use self::row::Whereabouts;
 use self::surfaces::{Surfaces, labels};
-use crate::case::schema::Case;
+use crate::case::schema::{Case, StressField, Stresses};
 use crate::run::error::RunError;
 use crate::run::means::Means;
 use crate::run::mesh_mode::WatchedFaces;
@@ -27,6 +27,7 @@ use output::{
     TransientGrid,
 };
 use serde::{Deserialize, Serialize};
+use solid::invariants;
 use std::ops::Range;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -39,7 +40,9 @@ pub(crate) struct Recorder {
     velocity: Vec<Vector3<f64>>,
     fields: Schedule,
     probes: Option<Probes>,
-    stress: bool,
+    stress: Stresses,
+    /// Stress of the elements (Pa) at a snapshot.
+    cauchy: Vec<[f64; 6]>,
     /// Nodes of the disk, which moves with the hub but for its deformation.
     disk: Range<usize>,
     mesh_mode: WatchedFaces,
@@ -103,7 +106,8 @@ impl Recorder {
             displacement: vec![Vector3::zeros(); count],
             velocity: vec![Vector3::zeros(); count],
             fields: Schedule { interval: case.fields_interval(), next: 0.0 },
-            stress: case.output.stress,
+            stress: case.output.stress.clone(),
+            cauchy: Vec::new(),
             disk: model.mesh.bodies[DISK].nodes.clone(),
             mesh_mode,
             wall: Duration::ZERO,
@@ -232,7 +236,7 @@ impl Recorder {
     }
 
     fn write_fields(&mut self, simulation: &Simulation) -> Result<(), RunError> {
-        let (stress, disk) = (self.stress, &self.disk);
+        let disk = &self.disk;
         let rigid = simulation.hub().map(Hub::rigid_motion);
         let reference = simulation.solid().reference();
         let deformation = |(node, u): (usize, &Padded)| match &rigid {
@@ -242,16 +246,35 @@ impl Recorder {
             _ => u.xyz(),
         };
         let (displacement, solid) = (simulation.displacement(), simulation.solid());
-        let cauchy = |to: &mut Snapshot<'_>| {
-            to.tensors(solid.elements(), |out| solid.cauchy_stress(displacement, out));
+        let written: Vec<StressField> = self.stress.written().collect();
+        if !written.is_empty() {
+            self.cauchy.resize(solid.elements(), [0.0; 6]);
+            solid.cauchy_stress(displacement, &mut self.cauchy);
+        }
+        let cauchy = &self.cauchy;
+        let scalars = |of: fn(&[f64; 6]) -> f64| {
+            move |to: &mut Snapshot<'_>| to.scalars(cauchy.iter().map(of))
         };
-        let fields = BodyFields::<Option<&dyn Fn(&mut Snapshot<'_>)>> {
+        let tensor = |to: &mut Snapshot<'_>| {
+            to.tensors(cauchy.len(), |out| out.copy_from_slice(cauchy));
+        };
+        let principal =
+            |to: &mut Snapshot<'_>| to.vectors(cauchy.iter().map(invariants::principal));
+        let [von_mises, max_shear, hydrostatic] =
+            [invariants::von_mises, invariants::max_shear, invariants::hydrostatic].map(scalars);
+        type Fill<'a> = &'a dyn Fn(&mut Snapshot<'_>);
+        let stress = |field: StressField, fill| written.contains(&field).then_some(fill);
+        let fields = BodyFields::<Option<Fill<'_>>> {
             displacement: Some(&|to| {
                 to.vectors(displacement.iter().map(|u| moved(*u, simulation.travel()).into()));
             }),
             deformation: Some(&|to| to.vectors(displacement.iter().enumerate().map(deformation))),
             velocity: Some(&|to| to.vectors(simulation.velocity().iter().map(|v| v.xyz()))),
-            stress: stress.then_some(&cauchy),
+            stress: stress(StressField::Tensor, &tensor as Fill<'_>),
+            von_mises: stress(StressField::VonMises, &von_mises),
+            max_shear: stress(StressField::MaxShear, &max_shear),
+            hydrostatic: stress(StressField::Hydrostatic, &hydrostatic),
+            principal: stress(StressField::Principal, &principal),
         };
         self.contact.write_fields(simulation.time(), |snapshot| {
             fields.each().into_iter().flatten().for_each(|fill| fill(snapshot));
@@ -309,7 +332,9 @@ fn create_fields(
 ) -> Result<TransientGrid, RunError> {
     let body = labels(&model.mesh.bodies.iter().map(|b| b.hexes.len()).collect::<Vec<_>>());
     let mut specs = BODIES.each().map(FieldSpec::clone).to_vec();
-    specs.retain(|spec| case.output.stress || *spec != BODIES.stress);
+    let written: Vec<StressField> = case.output.stress.written().collect();
+    let left_out = StressField::ALL.into_iter().filter(|field| !written.contains(field));
+    left_out.for_each(|field| specs.retain(|spec| spec != field.dataset()));
     let points: Vec<[f64; 3]> = model.mesh.nodes.iter().map(|&x| x.into()).collect();
     let grid = GridSpec {
         points: &points,

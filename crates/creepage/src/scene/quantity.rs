@@ -89,10 +89,11 @@ impl Quantity {
         }
     }
 
-    /// The dataset from which it is made; `None` for the deformation, which may have to be found.
+    /// The dataset from which it is made; `None` for the deformation, which may have to be found. Von Mises stress is
+    /// also made of the tensor.
     pub(crate) fn dataset(self) -> Option<&'static FieldSpec> {
         match self {
-            Self::VonMises => Some(&BODIES.stress),
+            Self::VonMises => Some(&BODIES.von_mises),
             Self::Velocity => Some(&BODIES.velocity),
             Self::Deformation => None,
             Self::Pressure => Some(&CONTACT.pressure),

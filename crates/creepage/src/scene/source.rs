@@ -8,6 +8,7 @@ use crate::check::frames;
 use nalgebra::Vector3;
 use output::layout::{BODIES, CONSTANT, CONTACT, HALF, attribute};
 use output::{FieldSpec, GridFile, as_long_as_written, as_written, read_summary};
+use solid::invariants::von_mises;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -15,30 +16,30 @@ use std::path::{Path, PathBuf};
 pub(super) const DISK: u8 = 0;
 
 /// The mesh and the file of its records.
-pub(super) struct Source {
+pub(crate) struct Source {
     pub(super) path: PathBuf,
     file: GridFile,
-    pub(super) times: Vec<f64>,
+    pub(crate) times: Vec<f64>,
     /// Reference coordinates (m).
     pub(super) points: Vec<Vector3<f64>>,
     /// Corners of all cells, one cell after the other.
-    pub(super) corners: Vec<u32>,
+    pub(crate) corners: Vec<u32>,
     /// Corners of each cell: 8 of the bodies, 4 of the surfaces.
     pub(super) per_cell: usize,
     /// Body of each cell.
-    pub(super) bodies: Vec<u8>,
+    pub(crate) bodies: Vec<u8>,
     /// Nodes of the disk, and the lowest and highest z of them before they moved (m).
     disk: Vec<usize>,
     pub(super) heights: [f64; 2],
     /// Whether the part y >= 0 alone is modelled.
-    pub(super) half: bool,
+    pub(crate) half: bool,
 }
 
 /// One record.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Record {
+pub(crate) struct Record {
     /// Where the nodes are (m).
-    pub(super) placed: Vec<Vector3<f64>>,
+    pub(crate) placed: Vec<Vector3<f64>>,
     /// What of their displacement is no rigid motion of their body (m).
     pub(super) deformation: Vec<Vector3<f64>>,
     /// The quantities by their names, each in the unit of its label.
@@ -46,7 +47,7 @@ pub(super) struct Record {
     /// Shear traction (Pa); of surfaces alone.
     pub(super) shear: Option<Vec<Vector3<f64>>>,
     /// Below the axis of the disk, as deep as the disk reaches.
-    pub(super) lowest: Vector3<f64>,
+    pub(crate) lowest: Vector3<f64>,
 }
 
 impl Record {
@@ -59,7 +60,7 @@ impl Record {
 
 impl Source {
     /// Opens the records of a run, after a check of the file's checksum where the run has ended.
-    pub(super) fn open(folder: &Path, what: Drawable) -> Result<Self, SceneError> {
+    pub(crate) fn open(folder: &Path, what: Drawable) -> Result<Self, SceneError> {
         let path = folder.join(what.file());
         if !path.is_file() {
             return Err(SceneError::NoFile { folder: folder.into(), what });
@@ -115,7 +116,7 @@ impl Source {
         if finite { Ok(()) } else { lacks("a coordinate or a time is not a number") }
     }
 
-    fn has(&self, field: &FieldSpec) -> bool {
+    pub(crate) fn has(&self, field: &FieldSpec) -> bool {
         let same = |f: &output::FieldInfo| {
             f.name == field.name && f.on_cells == field.on_cells && f.components == field.components
         };
@@ -124,7 +125,8 @@ impl Source {
 
     /// Whether the run wrote what `quantity` is made of.
     pub(super) fn shows(&self, quantity: Quantity) -> bool {
-        quantity.dataset().is_none_or(|field| self.has(field))
+        let of_tensor = quantity == Quantity::VonMises && self.has(&BODIES.stress);
+        of_tensor || quantity.dataset().is_none_or(|field| self.has(field))
     }
 
     /// Nodes of a body, sorted.
@@ -150,7 +152,7 @@ impl Source {
     }
 
     /// The record `index` with these quantities at its nodes.
-    pub(super) fn record(
+    pub(crate) fn record(
         &self,
         index: usize,
         quantities: &[Quantity],
@@ -219,10 +221,12 @@ impl Source {
     ) -> Result<Vec<f64>, SceneError> {
         let sizes = |vectors: Vec<Vector3<f64>>| vectors.iter().map(|v| v.norm()).collect();
         match (quantity, quantity.dataset()) {
-            (Quantity::VonMises, Some(field)) => {
-                let stress = self.numbers(field, index)?;
-                let stress: Vec<f64> = stress.as_chunks().0.iter().map(von_mises).collect();
-                Ok(self.to_nodes(&stress))
+            (Quantity::VonMises, Some(field)) if self.has(field) => {
+                Ok(self.to_nodes(&self.numbers(field, index)?))
+            }
+            (Quantity::VonMises, _) => {
+                let stress = self.stress(index)?;
+                Ok(self.to_nodes(&stress.iter().map(von_mises).collect::<Vec<_>>()))
             }
             (Quantity::Pressure, Some(field)) => self.numbers(field, index),
             (Quantity::SlipVelocity, Some(field)) => {
@@ -236,6 +240,11 @@ impl Source {
             (_, Some(field)) => Ok(sizes(self.vectors(field, index)?)),
             (_, None) => Ok(sizes(record.deformation.clone())),
         }
+    }
+
+    /// The stress of every element, xx yy zz xy yz xz (Pa).
+    pub(crate) fn stress(&self, index: usize) -> Result<Vec<[f64; 6]>, SceneError> {
+        Ok(self.numbers(&BODIES.stress, index)?.as_chunks().0.to_vec())
     }
 
     /// The mean at each node of the cells around it.
@@ -282,27 +291,13 @@ impl Source {
 }
 
 /// The lowest and highest of numbers.
-pub(super) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
     values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
-}
-
-/// Of a stress xx yy zz xy yz xz.
-fn von_mises([xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
-    let square = |x: f64| x * x;
-    let normal = square(xx - yy) + square(yy - zz) + square(zz - xx);
-    (0.5 * normal + 3.0 * (square(*xy) + square(*yz) + square(*xz))).sqrt()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn von_mises_of_pull_of_shear_and_of_pressure() {
-        assert_eq!(von_mises(&[-3.0, 0.0, 0.0, 0.0, 0.0, 0.0]), 3.0);
-        assert!((von_mises(&[0.0, 0.0, 0.0, 0.0, 2.0, 0.0]) - 12f64.sqrt()).abs() < 1e-15);
-        assert_eq!(von_mises(&[7.0, 7.0, 7.0, 0.0, 0.0, 0.0]), 0.0);
-    }
 
     #[test]
     fn magnified_bodies_keep_their_place_and_only_their_deformation_grows() {

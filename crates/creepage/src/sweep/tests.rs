@@ -54,18 +54,18 @@ fn axes_with_a_nominal_value_vary_one_at_a_time_and_the_others_cross_them() {
         format!("[[axis]]\nkey = \"{key}\"\nvalues = {values}\n{nominal}\n")
     };
     let text = axis("drive.creepage", "[1e-3, 2e-3, 4e-3]", "nominal = 2e-3")
-        + &axis("load.normal", "[1e5, 2e5]", "nominal = 1e5")
+        + &axis("drive.ramp", "[1e-4, 2e-4]", "nominal = 1e-4")
         + &axis("friction.static", "[0.2, 0.3]", "");
     let (_dir, sweep) = sweep(&text);
     let points = sweep.unwrap().points().unwrap();
     let found: Vec<[f64; 3]> = points
         .iter()
         .map(|point| {
-            ["drive.creepage", "load.normal", "friction.static"]
+            ["drive.creepage", "drive.ramp", "friction.static"]
                 .map(|key| point.parameters[key].as_float().unwrap())
         })
         .collect();
-    let alone = [[1e-3, 1e5], [2e-3, 1e5], [4e-3, 1e5], [2e-3, 2e5]];
+    let alone = [[1e-3, 1e-4], [2e-3, 1e-4], [4e-3, 1e-4], [2e-3, 2e-4]];
     let all = alone.iter().flat_map(|[c, n]| [[*c, *n, 0.2], [*c, *n, 0.3]]);
     assert_eq!(found, all.collect::<Vec<_>>());
 }
@@ -228,7 +228,7 @@ fn every_sweep_of_the_project_resolves_and_its_runs_have_names_of_their_own() {
         .filter(|path| path.extension().is_some_and(|e| e == "toml"))
         .filter(|path| fs::read_to_string(path).unwrap().contains("[[axis]]"))
         .collect();
-    assert_eq!(sweeps.len(), 13, "{sweeps:?}");
+    assert_eq!(sweeps.len(), 14, "{sweeps:?}");
     for path in sweeps {
         let sweep = Sweep::load(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
         let points = sweep.points().unwrap_or_else(|e| panic!("{}: {e}", path.display()));

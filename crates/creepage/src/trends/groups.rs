@@ -17,12 +17,15 @@ pub(crate) struct Sweep<'a> {
     pub ensemble: bool,
 }
 
+/// Values of an axis and the runs that have them.
+type Members<'a> = Vec<(f64, Entry<'a>)>;
+
 /// Runs that differ in one axis only.
 pub(crate) struct Group<'a> {
     /// The other axes in which groups differ, with their values; empty where there are none.
     pub label: String,
     /// Value of the axis and run, by rising value.
-    pub members: Vec<(f64, Entry<'a>)>,
+    pub members: Members<'a>,
 }
 
 impl Group<'_> {
@@ -92,7 +95,7 @@ impl<'a> Sweep<'a> {
     pub fn groups(&self, axis: &str) -> Vec<Group<'a>> {
         let others: Vec<&str> = self.axes.iter().copied().filter(|other| *other != axis).collect();
         let text = |run: Entry<'a>, other: &&str| value_text(run.parameters().get(*other));
-        let mut groups: Vec<(Vec<String>, Vec<(f64, Entry<'a>)>)> = Vec::new();
+        let mut groups: Vec<(Vec<String>, Members<'a>)> = Vec::new();
         for run in self.runs.iter().copied() {
             let Some(value) = self.number(run, axis) else { continue };
             let values: Vec<String> = others.iter().map(|other| text(run, other)).collect();
@@ -113,7 +116,7 @@ impl<'a> Sweep<'a> {
             let parts = differing.iter().map(|i| format!("{} = {}", others[*i], values[*i]));
             parts.collect::<Vec<_>>().join(", ")
         };
-        let group = |(values, mut members): (Vec<String>, Vec<(f64, Entry<'a>)>)| {
+        let group = |(values, mut members): (Vec<String>, Members<'a>)| {
             members.retain(|(_, run)| run.completed());
             members.sort_by(|a, b| a.0.total_cmp(&b.0));
             Group { label: label(&values), members }

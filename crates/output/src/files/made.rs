@@ -31,6 +31,9 @@ pub const XML_MARK: &str = concat!("<!-- Creepage ", env!("CARGO_PKG_VERSION"), 
 /// The mark of this program in a PNG file: the content of a chunk `tEXt`.
 pub const PNG_MARK: &[u8] = concat!("Software\0Creepage ", env!("CARGO_PKG_VERSION")).as_bytes();
 
+/// The mark of this program in a PDF file: its producer, near its beginning.
+pub const PDF_MARK: &str = concat!("Creepage ", env!("CARGO_PKG_VERSION"));
+
 /// The CSS rule of the font in pages and figures: the one mark of those that versions without
 /// [`PAGE_MARK`] and [`XML_MARK`] wrote.
 const FONT: &str = "@font-face{font-family:\"DejaVu Sans\";src:url(data:font/ttf;base64,";
@@ -57,6 +60,14 @@ pub const PNG: Made = Made {
     endings: &["png"],
     start: b"\x89PNG\r\n\x1a\n",
     marks: &["Software\0Creepage"],
+    proof: None,
+};
+/// A figure as PDF.
+pub const PDF: Made = Made {
+    what: "figure",
+    endings: &["pdf"],
+    start: b"%PDF-",
+    marks: &["Producer (Creepage"],
     proof: None,
 };
 /// A mesh as a VTK XML unstructured grid.

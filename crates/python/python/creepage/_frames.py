@@ -68,7 +68,7 @@ class Source:
     def shows(self, quantity):
         """Whether the run wrote what the quantity is made of."""
         dataset = QUANTITIES[quantity][1]
-        return dataset is None or dataset in self.records
+        return dataset is None or dataset in self.records or quantity in self.records
 
     def read(self, name, record):
         """A dataset of a record (SI), all its numbers finite."""
@@ -107,7 +107,9 @@ class Source:
         """The quantity at every node, in the unit of its label."""
         _, dataset, _, unit = QUANTITIES[quantity]
         if quantity == "von_mises":
-            return self.to_nodes(von_mises(self.read(dataset, record))) / unit
+            known = self.has(quantity)  # of older runs it is made of the tensor
+            values = self.read(quantity, record) if known else von_mises(self.read(dataset, record))
+            return self.to_nodes(values) / unit
         values = deformation if dataset is None else self.read(dataset, record)
         values = values if values.ndim == 1 else np.linalg.norm(values, axis=1)
         if quantity == "slip_velocity":  # between surfaces that do not touch there is none

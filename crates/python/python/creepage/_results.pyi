@@ -5,6 +5,8 @@ A number that is not finite is None.
 
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
 from typing_extensions import NotRequired, TypedDict
 
 # What a check found; `docs/checks.md` describes it. Numbers in SI units unless an entry says otherwise. What a file of another version lacks has its default.
@@ -536,6 +538,37 @@ Statistics = TypedDict(
 
 # How a run ended.
 Status = Literal["completed", "interrupted", "failed"]
+
+# Stress over the depth on the axis of the patch in one body, at the last record of `fields.vtkhdf`.
+StressProfile = TypedDict(
+    "StressProfile",
+    {
+        "body": str,  # The body, `disk` or `bar`.
+        "contact_time": float,  # Time of the record of the tractions, the nearest to it (s).
+        "depth": NDArray[np.float64],  # Depths below the surface, at the centroids of the elements (m).
+        "elements": Stresses,  # Stress of the elements.
+        "half_length": float | None,  # Hertz's half axis along x (m).
+        "half_space": Stresses,  # Stress of a half-space under the pressure and shear that the run has on this body.
+        "hertz": Stresses | None,  # Stress of a half-space under Hertz's pressure without shear; none where Hertz's patch is not known.
+        "peak_pressure": float | None,  # Hertz's peak pressure (Pa).
+        "time": float,  # Time of the record of the bodies (s).
+        "x": float,  # x of the axis, the centre of the patch (m).
+    },
+)
+
+# Stresses at the depths of a profile (Pa), tension positive; x rolls, y is lateral, z is up.
+Stresses = TypedDict(
+    "Stresses",
+    {
+        "hydrostatic": NDArray[np.float64],  # A third of the trace.
+        "max_shear": NDArray[np.float64],  # Largest shear stress, half of largest less smallest principal stress.
+        "von_mises": NDArray[np.float64],  # Von Mises stress.
+        "xx": NDArray[np.float64],  # Normal stress along x.
+        "xz": NDArray[np.float64],  # Shear stress.
+        "yy": NDArray[np.float64],  # Normal stress along y.
+        "zz": NDArray[np.float64],  # Normal stress along z.
+    },
+)
 
 # The summary of a run at its end; numbers in SI units unless a field says otherwise.
 Summary = TypedDict(

@@ -414,18 +414,20 @@ class Run:
         caption=True,
         at=(),
         probes=(),
+        reference=None,
     ) -> dict:
         """Draw the figures of the run.
 
         Args:
             out: their folder [default: figures in the run's].
-            format: "svg", "png" or both.
+            format: "svg", "pdf", "png" or several of them.
             window: (from, to) in seconds [default: the run's evaluation window].
-            width: on paper (mm), with 300 pixels per inch [default: as on a screen].
+            width: on paper (mm), of PNG with 300 pixels per inch [default: as on a screen].
             font_size: of letters (points of 1/72 inch).
             caption: whether it stands below the panels.
             at: times (s) of lines and maps, four at most [default: the last three records].
             probes: numbers of those whose spectra are drawn [default: the first six].
+            reference: "half-space": draw the tractions beside steady rolling of half-spaces, computed in seconds.
 
         Returns:
             dict: lists of files by the name of the figure.
@@ -441,6 +443,7 @@ class Run:
             "no_caption": not caption,
             "at": list(at),
             "probes": list(probes),
+            "reference": reference,
         }
         document = execute(_creepage.plot, options)[0]
         return {each["name"]: [Path(file) for file in each["files"]] for each in document["figures"]}
@@ -486,13 +489,29 @@ class Run:
         options |= {"magnify": magnify, "span": span, "width": width, "frames": frames}
         return Path(render(self.path, out, **options)["file"])
 
+    def stress_profile(self) -> dict:
+        """The stress over the depth on the axis of the patch, at the last record of ``fields``.
+
+        Needs the tensor ``stress`` in ``fields.vtkhdf`` (output.stress = true).
+
+        Returns:
+            dict: by the body, "disk" and "bar", a dict: ``depth`` (m, shape (n,)), the centroids of the elements;
+            ``elements``, ``half_space`` (under the pressure and shear of the run) and ``hertz`` (under Hertz's pressure
+            alone), each a dict of arrays of the same shape (Pa, tension positive): ``von_mises``, ``max_shear``,
+            ``hydrostatic``, ``xx``, ``yy``, ``zz``, ``xz``; and ``half_length``, ``peak_pressure``, ``time``, ``x``.
+        """
+        profiles = execute(_creepage.stress_profile, {"run": self.path})[0]
+        return {profile["body"]: _arrays(profile) for profile in profiles}
+
     def view(self, out=None) -> Path:
         """Write a page with the interactive scene of the run [default: scene.html in its folder]; returns its path."""
         return Path(execute(_creepage.view, {"run": self.path, "out": out})[0]["page"])
 
-    def report(self, out=None) -> Path:
-        """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path."""
-        return Path(execute(_creepage.report, {"run": self.path, "out": out})[0]["page"])
+    def report(self, out=None, *, reference=None) -> Path:
+        """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path. ``reference`` is as of
+        :meth:`figures`."""
+        options = {"run": self.path, "out": out, "reference": reference}
+        return Path(execute(_creepage.report, options)[0]["page"])
 
     def to_pyvista(self, step=-1, what="fields"):
         """A record as a ``pyvista.UnstructuredGrid``.
@@ -543,6 +562,13 @@ class Run:
 
     def __repr__(self):
         return f"<run {self.path}: {self.summary.get('status', 'under way')}>"
+
+
+def _arrays(document):
+    """The document with arrays in the place of its lists."""
+    if isinstance(document, dict):
+        return {key: _arrays(value) for key, value in document.items()}
+    return np.array(document, float) if isinstance(document, list) else document
 
 
 def _span(window):

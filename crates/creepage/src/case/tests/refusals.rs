@@ -172,6 +172,11 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         ("output.history_interval=-0.0", vec!["output.history_interval = -0", "from 1 to"]),
         ("output.history_interval=1e300", vec!["output.history_interval = 1e300", "whole number"]),
         ("output.stress=1", vec!["output.stress = 1", "true or false"]),
+        ("output.stress=von_mises", vec!["output.stress = \"von_mises\"", "[\"von_mises\""]),
+        (
+            "output.stress=[\"von_misses\"]",
+            vec!["von_misses", "did you mean \"von_mises\"?", "\"principal\""],
+        ),
         ("output.probes.bar=[[1, 0]]", vec!["output.probes.bar = [1, 0]", "fine zone", "0.07"]),
         ("output.probes.disk=[[0.02, 0], [0.02, 0.02]]", vec!["output.probes.disk = [0.02, 0.02]"]),
         ("output.probes.bar=[[1, 0, 0]]", vec!["output.probes.bar", "pairs"]),
