@@ -9,6 +9,7 @@ mod error;
 mod export_k;
 mod import_contact;
 mod import_k;
+mod interface_of_k;
 mod listener;
 mod mesh;
 mod outputs;
@@ -34,6 +35,7 @@ pub use error::{
 pub use export_k::{ExportKOptions, ExportedK, export_k};
 pub use import_contact::{ImportedContact, import_contact};
 pub use import_k::{ImportKOptions, ImportedK, import_k};
+pub use interface_of_k::{InterfaceOfKOptions, interface_of_k};
 pub use listener::Listener;
 pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};

@@ -1,5 +1,5 @@
 //! LS-DYNA keyword files of a disk on a bar: read as a case and a mesh file ([`translate`]), and written of a case
-//! ([`export()`]).
+//! ([`export()`]); and what results of any keyword file refer to ([`interface()`]).
 //!
 //! Which cards are read and written, and the keys of each: docs/ls-dyna.md. Any other card is refused with its
 //! line, and what cards cannot say of a case is listed, so that no part of a model is lost without notice.
@@ -18,6 +18,7 @@ mod error;
 mod export;
 mod fields;
 mod ignored;
+mod interface;
 mod loads;
 mod model;
 mod motion;
@@ -34,6 +35,7 @@ mod units;
 pub use deck::Account;
 pub use error::{DeckError, DeckLine, Fault};
 pub use export::{Exported, RollingMotion, export, unsayable};
+pub use interface::{Interface, interface};
 pub use sources::Source;
 pub use translate::{Translation, translate};
 pub use units::Units;

@@ -93,6 +93,18 @@ pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     })
 }
 
+/// Makes a case and a mesh file of a keyword file of LS-DYNA.
+#[pyfunction]
+pub fn import_k<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::import_k(&options)?)))
+}
+
+/// Reads the contact of a keyword file of any model.
+#[pyfunction]
+pub fn interface_of_k<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::interface_of_k(&options)?)))
+}
+
 /// JSON Schema of a case, as JSON text.
 #[pyfunction]
 pub fn schema() -> String {

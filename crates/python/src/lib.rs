@@ -7,6 +7,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod commands;
+mod contact;
 mod files;
 mod held;
 mod law;
@@ -24,8 +25,11 @@ mod _creepage {
 
     #[pymodule_export]
     use crate::commands::{
-        check, main, mesh, plot, report, run, schema, slider, stress_profile, sweep, view,
+        check, import_k, interface_of_k, main, mesh, plot, report, run, schema, slider,
+        stress_profile, sweep, view,
     };
+    #[pymodule_export]
+    use crate::contact::ContactWriter;
     #[pymodule_export]
     use crate::files::{Grid, History, layout};
     #[pymodule_export]

@@ -236,8 +236,11 @@ impl Evaluation<'_> {
         if !of_bodies.is_empty() {
             return of_bodies;
         }
+        let stateless = measure == Measure::ViolatingFractionSlipState && !self.history.has.state;
         let of = |channel: &Channel| {
-            (channel.view, Some(channel.pairing), channel.accumulator.statistic(measure))
+            let found = channel.accumulator.statistic(measure);
+            let value = found.value.filter(|_| !stateless);
+            (channel.view, Some(channel.pairing), Statistic { value, ..found })
         };
         self.channels.iter().filter(|channel| channel.accumulator.records > 0).map(of).collect()
     }

@@ -136,13 +136,7 @@ fn values(
         constant.push(StaticField::area(areas));
     }
     let grid = GridSpec { points, cells: Cells::Quads(faces), constant: &constant };
-    let provenance = Provenance {
-        creepage_version: env!("CARGO_PKG_VERSION").into(),
-        case_hash: "imported".into(),
-        created: "imported".into(),
-        attributes: Vec::new(),
-    };
-    let mut file = TransientGrid::create(&files.out, &grid, &specs, &provenance)?;
+    let mut file = TransientGrid::create(&files.out, &grid, &specs, &imported())?;
     let mut record = Record::new(points.len(), &specs);
     let mut time: Option<f64> = None;
     let mut rows = 0;
@@ -174,6 +168,16 @@ fn values(
         record.write(&mut file, now)?;
     }
     Ok((file.steps(), rows))
+}
+
+/// The origin of a file that is of another code.
+pub(super) fn imported() -> Provenance {
+    Provenance {
+        creepage_version: env!("CARGO_PKG_VERSION").into(),
+        case_hash: "imported".into(),
+        created: "imported".into(),
+        attributes: Vec::new(),
+    }
 }
 
 /// States of a node: open, stick, slip.

@@ -91,7 +91,7 @@ impl Pair {
     }
 
     /// The mean of the unit normals that the master faces around a node have there.
-    fn normal(
+    pub fn normal(
         &self,
         surface: &Surface,
         displacement: &[Vector3<f64>],

@@ -158,10 +158,13 @@ fn marked(keyword: &str, format: Format) -> (&str, Format) {
 }
 
 /// Keywords with one card, to which `_TITLE` or `_ID` adds a line.
-const HEADED: [&str; 11] = [
+const HEADED: [&str; 14] = [
     "CONSTRAINED_NODAL_RIGID_BODY",
     "CONSTRAINED_NODAL_RIGID_BODY_INERTIA",
+    "CONTACT_AUTOMATIC_ONE_WAY_SURFACE_TO_SURFACE",
     "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE",
+    "CONTACT_AUTOMATIC_SURFACE_TO_SURFACE_MORTAR",
+    "CONTACT_ONE_WAY_SURFACE_TO_SURFACE",
     "CONTACT_SURFACE_TO_SURFACE",
     "DEFINE_CURVE",
     "KEYWORD",

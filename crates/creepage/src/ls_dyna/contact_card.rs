@@ -2,7 +2,7 @@
 
 use crate::ls_dyna::cards::{Card, Line};
 use crate::ls_dyna::deck::{Contact, Side};
-use crate::ls_dyna::error::{DeckError, unsupported};
+use crate::ls_dyna::error::{DeckError, DeckLine, unsupported};
 use crate::ls_dyna::fields::{
     Layout, absent, number, output, real, real_or, rests, search, whole, zero,
 };
@@ -139,6 +139,50 @@ pub(super) fn read(card: &Card) -> Result<Contact, DeckError> {
         vdc,
         ends: (friction.place(), ends),
         sf,
+    })
+}
+
+/// The first line of a contact whose results are read, of which the sides alone count.
+const SIDES_ALONE: Layout<4> = Layout::new(&[
+    number("SSID"),
+    number("MSID"),
+    whole("SSTYP"),
+    whole("MSTYP"),
+    output("SBOXID"),
+    output("MBOXID"),
+    output("SPR"),
+    output("MPR"),
+]);
+
+/// The second line, of which the law of friction alone counts.
+const LAW_ALONE: Layout<3> = Layout::new(&[
+    real("FS"),
+    real("FD"),
+    real("DC"),
+    output("VC"),
+    output("VDC"),
+    output("PENCHK"),
+    output("BT"),
+    output("DT"),
+]);
+
+/// What results of a contact refer to.
+pub(super) struct Sliding {
+    pub(super) place: DeckLine,
+    pub(super) sides: [Side; 2],
+    /// FS, FD and DC; none where parts or tables give the friction.
+    pub(super) friction: Option<[f64; 3]>,
+}
+
+/// Reads what results of a contact refer to; how it is enforced does not matter for them.
+pub(super) fn sliding(card: &Card) -> Result<Sliding, DeckError> {
+    let sides = card.line(0)?;
+    let [first, second, first_kind, second_kind] = sides.take(&SIDES_ALONE)?;
+    let law = card.line(1)?.take(&LAW_ALONE)?;
+    Ok(Sliding {
+        place: card.place.clone(),
+        sides: [side(sides, 0, first, first_kind)?, side(sides, 1, second, second_kind)?],
+        friction: (law[0] >= 0.0 && law[0] != 2.0).then_some(law),
     })
 }
 

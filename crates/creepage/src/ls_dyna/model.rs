@@ -217,7 +217,11 @@ fn quiet_ends(bodies: &Bodies, foreign: &Foreign) -> Result<(), DeckError> {
     Err(unsupported(&first.place, what, "name the faces of both ends, or of none"))
 }
 
-fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indices, DeckError> {
+pub(super) fn take_nodes(
+    deck: &Deck,
+    units: Units,
+    foreign: &mut Foreign,
+) -> Result<Indices, DeckError> {
     let mut indices = HashMap::new();
     for node in &deck.nodes {
         if indices.insert(node.id, foreign.points.len() as u32).is_some() {
@@ -229,7 +233,11 @@ fn take_nodes(deck: &Deck, units: Units, foreign: &mut Foreign) -> Result<Indice
     Ok(Indices(indices))
 }
 
-fn take_solids(deck: &Deck, indices: &Indices, foreign: &mut Foreign) -> Result<(), DeckError> {
+pub(super) fn take_solids(
+    deck: &Deck,
+    indices: &Indices,
+    foreign: &mut Foreign,
+) -> Result<(), DeckError> {
     for solid in &deck.solids {
         let mut hex = [0; 8];
         for (corner, &node) in hex.iter_mut().zip(&solid.nodes) {

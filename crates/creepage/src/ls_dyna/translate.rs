@@ -53,7 +53,7 @@ pub fn translate(source: &Source, units: Units, mesh_file: &str) -> Result<Trans
 
 impl Deck {
     /// Refuses units other than those that the deck itself names.
-    fn names(&self, units: Units) -> Result<(), DeckError> {
+    pub(super) fn names(&self, units: Units) -> Result<(), DeckError> {
         let Some((place, [length, mass, time])) = &self.units else { return Ok(()) };
         if units.names() == [*length, *mass, *time] {
             return Ok(());

@@ -11,6 +11,7 @@ apex at the origin.
 from ._commands import run, schema, slider, sweep, verify
 from ._creepage import __version__
 from ._errors import CaseError, CreepageError, Interrupted, LimitError, RunError
+from ._lsdyna import from_lsdyna
 from ._mesh import mesh
 from ._resolved import Case
 from ._run import Field, History, Records, Run, Side, layout
@@ -29,6 +30,7 @@ __all__ = [
     "RunError",
     "Side",
     "Sweep",
+    "from_lsdyna",
     "layout",
     "mesh",
     "run",

@@ -218,6 +218,16 @@ def verify(
     list: bool = False,
     plot: _Path | None = None,
 ) -> dict[str, Any]: ...
+def from_lsdyna(
+    folder: _Path,
+    deck: _Path | None = None,
+    *,
+    out: _Path,
+    wheel: int | None = None,
+    rail: int | None = None,
+    unit: str = "mm-ton-s",
+    scales: Mapping[str, float] | None = None,
+) -> Run: ...
 def layout() -> dict[str, list[tuple[str, str, str, str]]]: ...
 def schema() -> dict[str, Any]: ...
 

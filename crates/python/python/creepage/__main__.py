@@ -3,14 +3,15 @@
 import signal
 import sys
 
-from . import _creepage, _render_command
+from . import _creepage, _lsdyna_command, _render_command
 
 
 def main() -> None:
     """Run the command line and end with its exit code."""
-    render = _render_command.taken(sys.argv[1:])
-    if render is not None:
-        sys.exit(_render_command.main(render))
+    for command in (_render_command, _lsdyna_command):
+        words = command.taken(sys.argv[1:])
+        if words is not None:
+            sys.exit(command.main(words))
     if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
         # Python's own would raise KeyboardInterrupt after the program has ended in order
         signal.signal(signal.SIGINT, signal.SIG_DFL)

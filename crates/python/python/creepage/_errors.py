@@ -53,3 +53,8 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, text="", *, run=None):
         super().__init__(text)
         self.run = run
+
+
+def refuse(problem, help=None):
+    """Raises the refusal of bad input."""
+    raise CaseError(problem if help is None else f"{problem}\n{help}", message=problem, help=help)

@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 from . import _creepage
-from ._errors import CaseError, RunError
+from ._errors import RunError, refuse
 from ._optional import optional
 
 # how files of this program begin, and what stands in them near the beginning
@@ -22,11 +22,6 @@ HEAD = 64 << 10
 # pictures in a second
 RATE = 10
 INSTALL = "install imageio-ffmpeg or ffmpeg with libx264, or write a film whose name ends in .gif"
-
-
-def refuse(problem, help=None):
-    """Raises the refusal of bad input."""
-    raise CaseError(problem if help is None else f"{problem}\n{help}", message=problem, help=help)
 
 
 def kind(path: Path) -> str:

@@ -3,11 +3,12 @@
 import importlib
 
 
-def optional(package, extra=None):
-    """The imported package; where it is missing the error names the extra that installs it."""
+def optional(package, extra=None, project=None):
+    """The imported package; where it is missing the error names the extra that installs it, and its project."""
     try:
         return importlib.import_module(package)
     except ImportError as error:
         extra = extra or package
-        text = f'{package} is needed for this: pip install "creepage[{extra}]", or pip install {package}'
+        name = project or package
+        text = f'{name} is needed for this: pip install "creepage[{extra}]", or pip install {name}'
         raise ImportError(text, name=package) from error

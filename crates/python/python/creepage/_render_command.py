@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from . import _creepage, _film
-from ._errors import CaseError, CreepageError
-from ._film import refuse
+from ._errors import CaseError, CreepageError, refuse
 from ._frames import BAR, QUANTITIES, Source
 from ._optional import optional
 from ._run import _NAMES
@@ -181,14 +180,16 @@ def spread(count, most=None) -> list[int]:
 class Parser(argparse.ArgumentParser):
     """Raises what is wrong with the words of a command line."""
 
+    def __init__(self, *words, **options):
+        super().__init__(*words, formatter_class=argparse.RawDescriptionHelpFormatter, **options)
+
     def error(self, message):
-        refuse(message, "for more information, try 'creepage render --help'")
+        refuse(message, f"for more information, try '{self.prog} --help'")
 
 
 def parser() -> Parser:
     """The options of the command."""
-    made = Parser("creepage render", description=ABOUT, epilog=EPILOG, allow_abbrev=False,
-                  formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    made = Parser("creepage render", description=ABOUT, epilog=EPILOG, allow_abbrev=False)
     made.add_argument("run", metavar="RUN", help="folder of a run")
     add = made.add_argument
     add("--json", action="store_true", help="print exactly one JSON document on standard output, everything else on "
@@ -214,10 +215,15 @@ def parser() -> Parser:
 
 def taken(words) -> list[str] | None:
     """The words after ``render`` where that is the command, with flags that stood before it."""
+    return of_command("render", words)
+
+
+def of_command(name, words) -> list[str] | None:
+    """The words after the command ``name`` where that is the command, with flags that stood before it."""
     for place, word in enumerate(words):
-        if word == "help" and words[place + 1 : place + 2] == ["render"]:
+        if word == "help" and words[place + 1 : place + 2] == [name]:
             return ["--help"]
-        if word == "render":
+        if word == name:
             return [*words[:place], *words[place + 1 :]]
         if not word.startswith("-"):
             break

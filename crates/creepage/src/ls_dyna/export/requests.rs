@@ -12,7 +12,8 @@ pub(super) fn requests(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     cards.card("DATABASE_BINARY_D3PLOT", &[("DT", case.fields_interval() / unit)]);
     cards.card("DATABASE_BINARY_INTFOR", &[("DT", interval)]);
     for name in ["DATABASE_NODOUT", "DATABASE_NCFORC"] {
-        cards.card(name, &[("DT", interval)]);
+        // into binout, also where text is the default
+        cards.card(name, &[("DT", interval), ("BINARY", 2.0)]);
     }
     for name in ["DATABASE_GLSTAT", "DATABASE_RCFORC", "DATABASE_RBDOUT"] {
         cards.card(name, &[("DT", often)]);

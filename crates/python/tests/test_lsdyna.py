@@ -1,0 +1,241 @@
+"""Results of LS-DYNA: a run that goes through binout files and its keyword file comes back as it was."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+
+import creepage
+import h5py
+import numpy as np
+import pytest
+from creepage import _lsdyna_command
+
+import binout
+from conftest import SMALL
+
+pytest.importorskip("lasso.dyna.lsda_py3")
+KEYS = {"time.roll": 2e-3, "output.contact_interval": 2e-6}
+# the first record is that of the preload: it has no shear, which digits cannot tell from a little
+ROLLING = (1e-6, 1.0)
+SECOND = 3
+
+
+@pytest.fixture(scope="module")
+def there(tmp_path_factory):
+    """A run, and the folder in which LS-DYNA would have computed it: its deck, and when it rolls there."""
+    return computed(tmp_path_factory.mktemp("lsdyna"), KEYS)
+
+
+def computed(folder, keys):
+    run = creepage.run(SMALL, folder / "run", threads=1, **keys)
+    sets = [word for key, value in keys.items() for word in ("--set", f"{key}={json.dumps(value)}")]
+    deck = folder / "there" / "deck.k"
+    deck.parent.mkdir()
+    subprocess.run([sys.executable, "-m", "creepage", "export-k", SMALL, *sets, "--out", deck, "-q"], check=True)
+    begins = re.search(r"START_TIME\n\$.*\n *(\S+)", deck.read_text())
+    return run, deck, float(begins[1])
+
+
+@pytest.fixture(scope="module")
+def imported(there):
+    run, deck, begins = there
+    binout.write(run, deck, deck.parent, begins=begins)
+    return creepage.from_lsdyna(deck.parent, out=deck.parent.parent / "imported")
+
+
+def order_of(there):
+    """The nodes of the run in the order of their numbers in the deck."""
+    return np.argsort(binout.labels(*there[:2]))
+
+
+def resolved(run, record):
+    """Pressure and shear of the run along the normals of its nodes, of which forces of nodes alone know."""
+    pressure, shear = (run.contact[name][record] for name in ("pressure", "shear"))
+    normal = binout.normals(run, run.contact["displacement"][record])
+    along = np.sum(shear * normal, axis=1)
+    return pressure - along, shear - along[:, None] * normal
+
+
+def values(check):
+    """Every measure by its name, the part of the interface and the pairing."""
+    found = {}
+    for name, metric in check["metrics"].items():
+        for side, parts in (metric.get("sides") or {}).items():
+            if isinstance(parts, dict):
+                of = {None: parts} if "value" in parts else parts
+                found |= {(name, side, at): part["value"] for at, part in of.items() if isinstance(part, dict)}
+    return found
+
+
+def test_tractions_and_motion_come_back_to_the_digits_of_the_deck(there, imported):
+    run, order = there[0], order_of(there)
+    assert np.allclose(imported.contact.times, run.contact.times, rtol=0, atol=1e-15)
+    assert np.allclose(imported.contact.points, run.contact.points[order], rtol=0, atol=1e-11)
+    assert np.allclose(imported.contact["area"][:], run.contact["area"][:][order], rtol=1e-8)
+    for record in range(len(run.contact.times)):
+        pressure, shear = resolved(run, record)
+        most = pressure.max()
+        assert np.allclose(imported.contact["pressure"][record], pressure[order], rtol=0, atol=1e-8 * most)
+        assert np.allclose(imported.contact["shear"][record], shear[order], rtol=0, atol=1e-8 * most)
+        for name in ("velocity", "displacement"):
+            assert np.allclose(imported.contact[name][record], run.contact[name][record][order], rtol=1e-14, atol=1e-18)
+
+
+def test_the_check_of_an_imported_run_is_that_of_the_run(there, imported, tmp_path):
+    run = there[0]
+    shutil.copy(run.path / "contact.vtkhdf", tmp_path)
+    for name in ("case.toml", "mesh.inp"):
+        shutil.copy(imported.path / name, tmp_path)
+    count = len(run.contact.points)
+    with h5py.File(tmp_path / "contact.vtkhdf", "r+") as file:
+        file.attrs["case_hash"] = "imported"
+        for record in range(len(run.contact.times)):
+            rows = slice(record * count, (record + 1) * count)
+            for name, of in zip(("pressure", "shear"), resolved(run, record)):
+                file["VTKHDF/PointData"][name][rows] = of
+    before, after = (values(one.check(window=ROLLING)) for one in (creepage.Run(tmp_path), imported))
+    shared = {key: value for key, value in after.items() if value is not None and before.get(key) is not None}
+    # slip between the bodies is found from positions and velocities; the run's own at a node that does not penetrate
+    # is that of the nodes which load it
+    exact = [
+        key for key in shared if key[1] == "pair" or key[0] in ("tension", "cone", "law_error", "violating_fraction")
+    ]
+    assert {"law_error", "direction", "wrong_direction", "dissipation", "adhesion_slip", "violating_fraction",
+            "law_scatter", "tension", "cone"} == {key[0] for key in exact}  # fmt: skip
+    for key in exact:
+        assert shared[key] == pytest.approx(before[key], rel=1e-8, abs=1e-10), key
+    # what nobody recorded is not judged
+    for name in ("penetration", "mu_error", "violating_fraction_slip_state"):
+        assert imported.check(window=ROLLING)["metrics"][name]["value"] is None
+
+
+def test_slip_is_that_of_the_run_at_nodes_that_penetrate(there, imported):
+    run, order = there[0], order_of(there)
+    own = run.contact["pass_pressure"][1:][:, order] > 0
+    slip = run.contact["slip_velocity"][1:][:, order]
+    off = np.linalg.norm(imported.contact["slip_velocity"][1:] - slip, axis=2)
+    # the surfaces of the run are curved, those of the deck flat: the projection lies elsewhere
+    assert np.max(off[own]) < 1e-2 * np.max(np.linalg.norm(slip, axis=2))
+    assert np.median(off[own]) < 1e-4 * np.max(np.linalg.norm(slip, axis=2))
+
+
+def test_other_files_orders_and_missing_states_change_nothing_else(there, imported, tmp_path):
+    run, deck, begins = there
+    order = np.random.default_rng(SECOND).permutation(len(run.contact.points))
+    binout.write(run, deck, tmp_path, begins=begins, order=order, files=3, skip=[7])
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["binout0000", "binout0000%001", "binout0000%002"]
+    out = tmp_path / "out"
+    document = _lsdyna_command.imported(tmp_path, deck, out, {"unit": "mm-ton-s"}, {})
+    assert (document["unmatched"], document["records"]) == (1, len(run.contact.times) - 1)
+    kept = np.delete(np.arange(len(run.contact.times)), 7)
+    found = creepage.Run(out).contact
+    for name in ("pressure", "shear", "velocity", "displacement"):
+        assert np.array_equal(found[name][:], imported.contact[name][:][kept]), name
+    # a projection begins where that of the state before ended
+    assert np.allclose(found["slip_velocity"][:], imported.contact["slip_velocity"][:][kept], rtol=0, atol=1e-9)
+
+
+def test_forces_on_the_other_body_are_turned_over(there, imported, tmp_path):
+    run, deck, begins = there
+    binout.write(run, deck, tmp_path, begins=begins, turned=["master_1"])
+    document = _lsdyna_command.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    assert document["notes"][1:] == ["the forces of ncforc/master_1 pull: they were taken as those on the other body"]
+    assert np.array_equal(creepage.Run(tmp_path / "out").contact["shear"][:], imported.contact["shear"][:])
+
+
+def test_half_a_model_becomes_the_whole(tmp_path):
+    run, deck, begins = computed(tmp_path, {**KEYS, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
+    binout.write(run, deck, deck.parent, begins=begins)
+    whole = creepage.from_lsdyna(deck.parent, out=tmp_path / "imported").contact
+    assert len(whole.points) == len(run.contact.points)
+    for mine, theirs in [(whole.disk, run.contact.disk), (whole.bar, run.contact.bar)]:
+        order = [np.argmin(np.linalg.norm(theirs.points - point, axis=1)) for point in mine.points]
+        assert np.allclose(mine.points, theirs.points[order], rtol=0, atol=1e-10)
+        assert np.allclose(mine["area"][:], theirs["area"][:][order], rtol=1e-8)
+        for name in ("velocity", "displacement"):
+            assert np.allclose(mine[name][-1], theirs[name][-1][order], rtol=1e-12, atol=1e-18)
+        most = theirs["pressure"][-1].max()
+        # to what lies between the normals of both surfaces
+        assert np.allclose(mine["pressure"][-1], theirs["pressure"][-1][order], rtol=0, atol=5e-3 * most)
+        assert np.allclose(mine["shear"][-1], theirs["shear"][-1][order], rtol=0, atol=5e-3 * most)
+
+
+def test_numbers_of_four_bytes_keep_their_digits(there, imported, tmp_path):
+    run, deck, begins = there
+    binout.write(run, deck, tmp_path, begins=begins, real="R4")
+    single = creepage.from_lsdyna(tmp_path, deck, out=tmp_path / "out")
+    assert len(single.contact.times) == len(run.contact.times)
+    # at an edge between faces the slip velocity jumps by the gap over their length
+    for name, close in [("pressure", 1e-6), ("shear", 1e-6), ("velocity", 1e-7), ("slip_velocity", 1e-3)]:
+        off = np.abs(single.contact[name][:] - imported.contact[name][:]).max()
+        assert 0 < off < close * np.abs(imported.contact[name][:]).max(), name
+    mine, theirs = (values(one.check(window=ROLLING))["law_error", "pair", "before"] for one in (single, imported))
+    assert mine == pytest.approx(theirs, rel=1e-3)
+
+
+def refused(capsys, *words):
+    """What the command says on standard error where it ends with 2."""
+    assert _lsdyna_command.main([str(word) for word in words]) == 2
+    return capsys.readouterr().err
+
+
+def test_a_damaged_or_incomplete_binout_is_refused_by_name(there, capsys, tmp_path):
+    run, deck, begins = there
+    loaded = int(np.argmax(run.contact["pressure"][-1]))
+    number = binout.labels(run, deck)[loaded]
+    for name, written, said in [
+        ("no-forces", {"without": ["ncforc"]}, "no ncforc;.*DATABASE_NCFORC.*SPR = MPR = 1"),
+        ("no-motion", {"without": ["nodout"]}, "no nodout;.*DATABASE_NODOUT.*DATABASE_HISTORY_NODE_SET"),
+        ("no-node", {"without": [loaded]}, f"nodout lacks node {number}.*DATABASE_HISTORY_NODE_SET"),
+        ("no-time", {"skip": range(len(run.contact.times))}, "ncforc/.* is empty.*DATABASE_NCFORC"),
+        ("cut", {}, "binout0000 is damaged or cut short"),
+        ("changed", {}, "binout0000 is damaged or cut short"),
+    ]:
+        folder = tmp_path / name
+        binout.write(run, deck, folder, begins=begins, **written)
+        whole = (folder / "binout0000").read_bytes()
+        if name == "cut":
+            (folder / "binout0000").write_bytes(whole[: len(whole) // 2])
+        if name == "changed":
+            (folder / "binout0000").write_bytes(whole[:4] + b"\7\7\7" + whole[7:])
+        line = refused(capsys, folder, "--deck", deck, "--out", folder / "out")
+        assert re.search(said, " ".join(line.split())), line
+        assert not (folder / "out" / "contact.vtkhdf").exists()
+    assert "holds no binout" in refused(capsys, deck.parent.parent / "run", "--out", tmp_path / "out")
+    assert "keyword file" in refused(capsys, tmp_path / "no-node", "--out", tmp_path / "out")
+
+
+def test_sides_that_the_contact_does_not_have_are_refused(there, imported, capsys, tmp_path):
+    deck = there[1]
+    words = (deck.parent, "--out", tmp_path / "out")
+    assert "a contact with side 7" in refused(capsys, *words, "--wheel", 7)
+    assert "invalid value 'slip_speed'" in refused(capsys, *words, "--scale", "slip_speed")
+    assert "mm-lb-s" in refused(capsys, *words, "--unit", "mm-lb-s")
+    assert "is there already" in refused(capsys, deck.parent, "--out", imported.path)
+    assert not (tmp_path / "out").exists()
+
+
+def test_the_contact_of_any_model_is_judged_by_its_own_friction(there, imported, capsys, tmp_path):
+    deck = there[1]
+    other = deck.read_text().replace("*MAT_ELASTIC\n", "*MAT_PLASTIC_KINEMATIC\n")
+    (tmp_path / "other.k").write_text(re.sub(r"(\*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE)\n", r"\1_ID\n1\n", other))
+    out = tmp_path / "out"
+    words = [deck.parent, "--deck", tmp_path / "other.k", "--wheel", 11, "--scale", "slip_speed=0.15556", "--out", out]
+    assert _lsdyna_command.main([*map(str, words), "--json"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert "MAT_PLASTIC_KINEMATIC" in document["notes"][0] and document["records"] == len(imported.contact.times)
+    found = creepage.Run(out)
+    assert found.case["friction"] == {"law": "coulomb", "static": 0.3}
+    assert np.array_equal(found.contact["shear"][:], imported.contact["shear"][:])
+    assert found.check()["metrics"]["law_error"]["value"] > 0
+    # sides the other way round
+    turned = creepage.from_lsdyna(deck.parent, deck, out=tmp_path / "turned", rail=11)
+    assert len(turned.contact.disk.points) == len(imported.contact.bar.points)
+
+
+def test_without_lasso_a_line_says_what_to_install(there, capsys, monkeypatch, tmp_path):
+    monkeypatch.setitem(sys.modules, "lasso.dyna.lsda_py3", None)
+    line = refused(capsys, there[1].parent, "--out", tmp_path / "out")
+    assert 'pip install "creepage[lsdyna]"' in line
