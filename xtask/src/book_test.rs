@@ -62,7 +62,7 @@ cargo() {
     esac
 }
 for foreign in cases/sweeps/slurm.sh cd cp peers/bin/pip peers/bin/python pip python sh \
-    {starter,engine,anim_to_vtk}_linux64_gf; do
+    ls-dyna {starter,engine,anim_to_vtk}_linux64_gf; do
     eval "$foreign() { known \"\$@\"; }"
 done
 "#;
