@@ -26,7 +26,7 @@ mod verify;
 mod view;
 
 pub use bench::{BenchOptions, bench};
-pub use cases::{CasesFound, CasesOptions, ReferenceCase, cases};
+pub use cases::{CasesFound, CasesOptions, ListedCase, cases};
 pub use check::{BasisOptions, CheckOptions, SpanOptions, check};
 pub use compare::{CompareOptions, compare};
 pub use error::{

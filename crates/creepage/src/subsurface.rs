@@ -5,7 +5,8 @@
 
 use crate::check::basis::{Basis, RunPaths, number_at, value_at};
 use crate::check::frames::{ContactHistory, Frame};
-use crate::check::{PostError, Scales, body_name, patch_series};
+use crate::check::patch_series::{self, PatchMeasure};
+use crate::check::{PostError, Scales, body_name};
 use crate::scene::{Drawable, SceneError, Source, ends};
 use contact::patch::PatchShape;
 use halfspace::{Ellipse, LoadedCell, plane_stress_below, stress_below};
@@ -124,10 +125,22 @@ pub(crate) struct Below<'a> {
     /// Edge of an element of the contact surfaces, and half axis of the patch along x (m).
     size: f64,
     half_length: f64,
+    /// Poisson's ratio of disk and bar.
+    poisson: [f64; 2],
 }
 
 /// The elements that have a face, by its sorted nodes.
 type Sharing = HashMap<[u32; 4], Vec<usize>>;
+
+/// Poisson's ratio of disk and bar, by the case.
+fn poisson(basis: &Basis) -> Option<[f64; 2]> {
+    let case = basis.case.as_ref()?;
+    let of = |body: u8| {
+        let own = number_at(case, &format!("{}.material.poisson", body_name(body)));
+        own.or_else(|| number_at(case, "material.poisson"))
+    };
+    Some([of(0)?, of(1)?])
+}
 
 fn sorted(mut nodes: [u32; 4]) -> [u32; 4] {
     nodes.sort_unstable();
@@ -138,7 +151,7 @@ fn sorted(mut nodes: [u32; 4]) -> [u32; 4] {
 pub(crate) type Cut = ([[f64; 2]; 4], [f64; 6]);
 
 impl<'a> Below<'a> {
-    /// `None` where the run has not written the stress tensor, or has no contact then.
+    /// `None` where the run has not written the stress tensor, has no contact then, or has no case with its material.
     ///
     /// # Errors
     /// Records that cannot be read or hold values that are not numbers.
@@ -156,16 +169,16 @@ impl<'a> Below<'a> {
         let Some((last, &time)) = source.times.iter().enumerate().next_back() else {
             return Ok(None);
         };
-        if !source.has(&BODIES.stress) {
+        let (true, Some(poisson)) = (source.has(&BODIES.stress), poisson(basis)) else {
             return Ok(None);
-        }
+        };
         let away = |i: &usize| (history.times[*i] - time).abs();
         let nearest = (0..history.times.len()).min_by(|a, b| away(a).total_cmp(&away(b)));
         let frame = history.record(nearest.unwrap_or_default())?;
         let bar = history.surface.bodies().last().copied().unwrap_or(0);
         let measured =
             patch_series::measure(&history.surface, &frame, bar, scales.peak_pressure, basis.shape);
-        let patch_x = measured.values[2];
+        let patch_x = measured.values[PatchMeasure::Centre as usize];
         if !patch_x.is_finite() {
             return Ok(None);
         }
@@ -187,7 +200,10 @@ impl<'a> Below<'a> {
             placed: record.placed,
             stress,
             size: scales.size,
-            half_length: basis.scale("half_length").unwrap_or(10.0 * scales.size),
+            half_length: basis
+                .scale("half_length")
+                .unwrap_or(measured.values[PatchMeasure::HalfLength as usize]),
+            poisson,
             source,
         }))
     }
@@ -326,13 +342,6 @@ impl<'a> Below<'a> {
         .collect()
     }
 
-    fn poisson(&self, body: u8) -> f64 {
-        let own = format!("{}.material.poisson", body_name(body));
-        let case = self.basis.case.as_ref();
-        let number = |key: &str| case.and_then(|case| number_at(case, key));
-        number(&own).or_else(|| number("material.poisson")).unwrap_or(0.3)
-    }
-
     /// The surface of a body in contact, with the tractions on it; x and y from the centre of the patch (m).
     fn loaded(&self, body: u8, plane: bool) -> Vec<LoadedCell> {
         let surface = &self.history.surface;
@@ -357,7 +366,7 @@ impl<'a> Below<'a> {
     pub(crate) fn half_space(&self, body: u8, depths: &[f64]) -> Vec<[f64; 6]> {
         let plane = self.basis.case.as_ref().and_then(|case| value_at(case, "mesh.plane_strain"));
         let plane = plane.and_then(toml::Value::as_bool).unwrap_or(false);
-        let (cells, nu) = (self.loaded(body, plane), self.poisson(body));
+        let (cells, nu) = (self.loaded(body, plane), self.poisson[usize::from(body)]);
         let below = if plane { plane_stress_below } else { stress_below };
         let at = |depth: &f64| {
             let [xx, yy, zz, xy, yz, xz] = below(&cells, [0.0, 0.0, *depth], nu);
@@ -378,7 +387,7 @@ impl<'a> Below<'a> {
             half_width,
             peak_pressure: self.basis.hertz("peak_pressure")?,
         };
-        let nu = self.poisson(body);
+        let nu = self.poisson[usize::from(body)];
         Some(depths.iter().map(|depth| pressure.stress_below_centre(*depth, nu)).collect())
     }
 

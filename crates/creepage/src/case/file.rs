@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use output::files::input::{self, InputError};
 
 use crate::case::error::CaseError;
-use crate::case::reference::{Reference, did_you_mean};
+use crate::case::reference::{ReferenceCase, did_you_mean};
 
 /// Where a case or a sweep is read from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,13 +14,13 @@ pub enum CaseFile {
     /// A file.
     Disk(PathBuf),
     /// A reference case, which is part of the program.
-    Reference(&'static Reference),
+    Reference(&'static ReferenceCase),
 }
 
 impl CaseFile {
     /// What a path of the command line means: the file there, or else the reference case of that name.
     pub fn named(path: &Path) -> Self {
-        match Reference::named(path) {
+        match ReferenceCase::named(path) {
             Some(reference) if !path.is_file() => Self::Reference(reference),
             _ => Self::Disk(path.to_owned()),
         }

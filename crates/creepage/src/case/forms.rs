@@ -182,14 +182,14 @@ impl StressField {
 /// Which stresses a run writes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(untagged)]
-pub enum Stresses {
+pub enum StressOutput {
     /// The tensor and von Mises stress, or none.
     Usual(bool),
     /// These.
     These(Vec<StressField>),
 }
 
-impl Stresses {
+impl StressOutput {
     /// Those that are written, in the order of the file.
     pub fn written(&self) -> impl Iterator<Item = StressField> {
         let wanted = |field: &StressField| match self {

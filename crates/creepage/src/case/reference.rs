@@ -8,7 +8,7 @@ use crate::case::keys::nearest;
 
 /// A reference case, or a sweep over one.
 #[derive(Debug, PartialEq, Eq)]
-pub struct Reference {
+pub struct ReferenceCase {
     /// Path of its file in the folder `cases`, without the ending.
     pub name: &'static str,
     /// What the file holds.
@@ -17,7 +17,7 @@ pub struct Reference {
 
 macro_rules! references {
     ($($name:literal)*) => {
-        &[$(Reference {
+        &[$(ReferenceCase {
             name: $name,
             text: include_str!(concat!("../../../../cases/", $name, ".toml")),
         }),*]
@@ -25,7 +25,7 @@ macro_rules! references {
 }
 
 /// All, in the order in which they are listed. None names a file other than these: neither a mesh nor a friction table.
-pub static REFERENCES: &[Reference] = references![
+pub static REFERENCES: &[ReferenceCase] = references![
     "quick" "smoke"
     "zhao-li/a-coulomb" "zhao-li/b-falling" "zhao-li/b-as-published" "zhao-li/c-memory"
     "zhao-li/d-coulomb-low" "zhao-li/control-weak"
@@ -37,7 +37,7 @@ pub static REFERENCES: &[Reference] = references![
     "sweeps/kt-large" "sweeps/dt-large" "sweeps/mesh-large" "sweeps/law-large"
 ];
 
-impl Reference {
+impl ReferenceCase {
     /// The one of this name (`zhao-li/b-falling`), of the last part of it (`b-falling`), or of its path in the documents
     /// (`cases/zhao-li/b-falling.toml`).
     pub fn named(path: &Path) -> Option<&'static Self> {
@@ -99,7 +99,7 @@ impl Reference {
 pub fn did_you_mean(path: &Path) -> Option<String> {
     let given = text_of(path)?;
     let name = given.strip_suffix(".toml").unwrap_or(&given);
-    let meant = Reference::named(Path::new(name)).map(|of| of.name);
+    let meant = ReferenceCase::named(Path::new(name)).map(|of| of.name);
     let meant = meant.or_else(|| nearest(name, REFERENCES.iter().map(|of| of.name)))?;
     Some(format!("did you mean the reference case `{meant}`? `creepage cases` lists all"))
 }

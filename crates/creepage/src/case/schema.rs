@@ -9,7 +9,7 @@ pub use crate::case::bodies::{
 };
 use crate::case::form::Form::{Count, Number, OverTime, Points, Text, Words};
 use crate::case::form::{none_or_within, within};
-pub use crate::case::forms::{Creepage, Crown, StressField, Stresses};
+pub use crate::case::forms::{Creepage, Crown, StressField, StressOutput};
 use crate::case::key::{FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, word};
 use crate::case::section::{is_default, section, words};
 use crate::case::written::Written;
@@ -486,7 +486,7 @@ section! {
         /// `von_mises`, false for none, or a list: `"tensor"` (xx yy zz xy yz xz), `"von_mises"`, `"max_shear"` (half of
         /// largest less smallest principal stress), `"hydrostatic"` (a third of the trace), `"principal"` (the largest
         /// first). Default true.
-        stress: Stresses = Stresses::Usual(true)
+        stress: StressOutput = StressOutput::Usual(true)
             => key(Words(StressField::WORDS), "", "give a list of names: [\"von_mises\", \"max_shear\"]")
                 .finite_elements_only();
         /// Interval of `contact.vtkhdf` outside windows (s). Default 5.7e-6, the paper's.

@@ -6,13 +6,14 @@ use crate::check::surface::Surface;
 use nalgebra::Vector3;
 use output::layout::CONTACT;
 use output::{Cells, FieldSpec, GridSpec, OutputError, StaticField, TransientGrid, Values};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Writes `contact.vtkhdf` record by record. At a node with the unit normal `n` of its own surface, the mean of the normals
 /// of the faces around it as they are displaced, and with the area `A`, a force `f` gives the pressure `-f.n/A` and the
 /// shear `f/A + p n`. The slip velocity is that relative to the closest-point projection on the other surface, as
 /// the check finds it for the pair.
 pub struct ContactOfForces {
+    path: PathBuf,
     file: TransientGrid,
     surface: Surface,
     /// The nodes of each body over the faces of the other.
@@ -51,7 +52,7 @@ impl ContactOfForces {
         let grid = GridSpec { points: &points, cells, constant: &constant };
         let file = TransientGrid::create(path, &grid, &specs, &imported())?;
         let pairs = [0, 1].map(|body| Pair::over_convex_edges(&surface, body));
-        Ok(Self { file, surface, pairs })
+        Ok(Self { path: path.into(), file, surface, pairs })
     }
 
     /// Appends a record; returns how many nodes bear a force but have no projection: they are left out, as open ones.
@@ -59,10 +60,15 @@ impl ContactOfForces {
     /// # Errors
     /// Values of another number than the nodes; a file that cannot be written.
     pub fn append(&mut self, time: f64, record: &NodalForces) -> Result<usize, OutputError> {
-        let Self { file, surface, pairs } = self;
+        let Self { path, file, surface, pairs } = self;
+        let count = surface.points.len();
+        let rows = [record.force, record.velocity, record.displacement].map(<[_]>::len);
+        if rows != [count; 3] {
+            let problem = format!("forces and motion of {rows:?} nodes, but there are {count}");
+            return Err(OutputError::Shape { path: path.clone(), problem });
+        }
         let vectors = |rows: &[[f64; 3]]| rows.iter().copied().map(Vector3::from).collect();
         let motion: [Vec<Vector3<f64>>; 2] = [record.displacement, record.velocity].map(vectors);
-        let count = surface.points.len();
         let mut pressure = vec![0.0; count];
         let (mut shear, mut slip) = (vec![[0.0; 3]; count], vec![[0.0; 3]; count]);
         let mut lost = 0;
@@ -72,7 +78,7 @@ impl ContactOfForces {
                     && record.force[row] != [0.0; 3]
                     && surface.area[row] > 0.0
             };
-            let rows: Vec<usize> = (0..count.min(record.force.len())).filter(bears).collect();
+            let rows: Vec<usize> = (0..count).filter(bears).collect();
             let slips = pairs[body].slip(surface, &motion, &rows);
             for (row, relative) in rows.into_iter().zip(slips) {
                 let Some(relative) = relative else {

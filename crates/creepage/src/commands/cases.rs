@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::Error;
 use crate::case::json_schema;
-use crate::case::reference::{REFERENCES, Reference, did_you_mean};
+use crate::case::reference::{REFERENCES, ReferenceCase, did_you_mean};
 
 /// The schema that the cases name.
 const SCHEMA: &str = "case.schema.json";
@@ -31,7 +31,7 @@ pub struct CasesOptions {
 
 /// A reference case: the name for a command, and what it is for.
 #[derive(Clone, Debug, Serialize)]
-pub struct ReferenceCase {
+pub struct ListedCase {
     /// Its name.
     pub name: &'static str,
     /// The command that runs it: `run` or `sweep`.
@@ -42,8 +42,8 @@ pub struct ReferenceCase {
     pub below: Option<&'static str>,
 }
 
-impl From<&Reference> for ReferenceCase {
-    fn from(of: &Reference) -> Self {
+impl From<&ReferenceCase> for ListedCase {
+    fn from(of: &ReferenceCase) -> Self {
         let command = if of.is_sweep() { "sweep" } else { "run" };
         Self { name: of.name, command, title: of.title(), below: of.below().map(|of| of.name) }
     }
@@ -53,7 +53,7 @@ impl From<&Reference> for ReferenceCase {
 #[derive(Clone, Debug, Serialize)]
 pub struct CasesFound {
     /// The cases.
-    pub cases: Vec<ReferenceCase>,
+    pub cases: Vec<ListedCase>,
     /// The files that were written.
     pub files: Vec<String>,
 }
@@ -65,11 +65,12 @@ pub struct CasesFound {
 /// be written.
 pub fn cases(options: &CasesOptions) -> Result<CasesFound, Error> {
     if options.names.is_empty() {
-        let cases = REFERENCES.iter().map(ReferenceCase::from).collect();
+        let cases = REFERENCES.iter().map(ListedCase::from).collect();
         return Ok(CasesFound { cases, files: Vec::new() });
     }
     let wanted = wanted(options)?;
-    let schema = serde_json::to_string_pretty(&json_schema()).unwrap_or_default() + "\n";
+    let schema = serde_json::to_string_pretty(&json_schema());
+    let schema = schema.map_err(|error| Error::plain(error.to_string()))? + "\n";
     let folder = options.out.clone().unwrap_or_else(|| "cases".into());
     let texts = wanted.iter().map(|of| (folder.join(of.file()), of.text));
     let texts: Vec<_> = texts.chain([(folder.join(SCHEMA), schema.as_str())]).collect();
@@ -90,14 +91,14 @@ pub fn cases(options: &CasesOptions) -> Result<CasesFound, Error> {
         )?;
     }
     let files = texts.iter().map(|(path, _)| path.display().to_string()).collect();
-    Ok(CasesFound { cases: wanted.into_iter().map(ReferenceCase::from).collect(), files })
+    Ok(CasesFound { cases: wanted.into_iter().map(ListedCase::from).collect(), files })
 }
 
 /// The reference cases that the options name, each followed by those below it, none twice.
-fn wanted(options: &CasesOptions) -> Result<Vec<&'static Reference>, Error> {
+fn wanted(options: &CasesOptions) -> Result<Vec<&'static ReferenceCase>, Error> {
     let mut wanted = Vec::new();
     for name in &options.names {
-        let named = Reference::named(name).ok_or_else(|| Error::Option {
+        let named = ReferenceCase::named(name).ok_or_else(|| Error::Option {
             problem: format!("{}: there is no such reference case", name.display()),
             help: did_you_mean(name).or_else(|| Some("`creepage cases` lists them".into())),
         })?;

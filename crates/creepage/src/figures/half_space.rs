@@ -19,7 +19,7 @@ pub(super) const PEAK_PRESSURE: f64 = 1.23756e9;
 const NEAR: f64 = 0.05;
 
 /// Shear along y = 0 of half-spaces as it is drawn: label, points x (m), p_f (Pa), and what the caption says.
-pub(super) struct Drawn {
+pub(super) struct HalfSpaceShear {
     pub label: String,
     pub points: Vec<[f64; 2]>,
     pub text: String,
@@ -42,7 +42,7 @@ pub(super) fn profile(column: usize) -> Vec<[f64; 2]> {
 /// x/a depends on Poisson's ratio, a/b and T/(mu N) alone. A case therefore has a reference where its friction is
 /// Coulomb's, its Poisson's ratio is 0.3, its a/b within 1 % of the table's, and its T/(mu N) within 0.05 of one of
 /// 0.30, 0.56 and 0.80.
-pub(super) fn shear(scene: &Scene<'_>) -> Option<Drawn> {
+pub(super) fn shear(scene: &Scene<'_>) -> Option<HalfSpaceShear> {
     let basis = scene.basis;
     let Some(Law::Coulomb(law)) = basis.law else {
         return None;
@@ -62,7 +62,7 @@ pub(super) fn shear(scene: &Scene<'_>) -> Option<Drawn> {
     let (along, up) =
         (a / HALF_AXES[0], law.mu / MU * scene.hertz("peak_pressure")? / PEAK_PRESSURE);
     let traction = of * law.mu / MU;
-    Some(Drawn {
+    Some(HalfSpaceShear {
         label: format!("p_{{f}}, half-space (CONTACT) at T/N = {traction:.3}"),
         points: profile(column).into_iter().map(|[x, p]| [along * x, up * p]).collect(),
         text: " Orange: half-spaces, pressure by Hertz, shear of steady rolling by CONTACT at the \

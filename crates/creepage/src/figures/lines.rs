@@ -1,7 +1,7 @@
 //! Lines along y = 0 at up to three instants.
 
 use super::caption::{caption, instants};
-use super::half_space::{self, Drawn};
+use super::half_space::{self, HalfSpaceShear};
 use super::scene::{INSTANTS, Instant, Scene, time_label};
 use crate::chart::{Axis, Draw, Figure, Panel, Series, colour};
 use crate::check::surface::body_name;
@@ -77,7 +77,7 @@ pub(super) fn velocities(scene: &Scene<'_>) -> Figure {
 }
 
 /// Figure 3: pressure and shear along y = 0 with the bounds of friction, beside a reference that was computed or else is known.
-pub(super) fn tractions(scene: &Scene<'_>, computed: Option<Drawn>) -> Figure {
+pub(super) fn tractions(scene: &Scene<'_>, computed: Option<HalfSpaceShear>) -> Figure {
     let mega = |values: Vec<[f64; 2]>| -> Vec<[f64; 2]> {
         values.into_iter().map(|[x, p]| [x, 1e-6 * p]).collect()
     };

@@ -1,6 +1,6 @@
 //! Steady rolling of half-spaces beside a run, computed when asked and kept in the run's folder.
 
-use super::half_space::Drawn;
+use super::half_space::HalfSpaceShear;
 use super::scene::Scene;
 use crate::case::Case;
 use crate::case::hertz::{hertz, patch_shape};
@@ -69,7 +69,7 @@ struct Steady {
 ///
 /// # Errors
 /// [`PostError::Asked`] for a run whose bodies, friction or creepage have no such reference.
-pub(super) fn steady(scene: &Scene<'_>, paths: &RunPaths) -> Result<Drawn, PostError> {
+pub(super) fn steady(scene: &Scene<'_>, paths: &RunPaths) -> Result<HalfSpaceShear, PostError> {
     let asked = |why: String| {
         PostError::Asked(format!("--reference half-space: {}: {why}", scene.basis.name))
     };
@@ -165,7 +165,7 @@ fn closed_forms(of: &Inputs, shear_modulus: f64) -> Option<ClosedForms> {
 
 impl Steady {
     /// The line of Figure 3, and what its caption says; `run` is the run's T/N.
-    fn drawn(self, run: Option<f64>) -> Drawn {
+    fn drawn(self, run: Option<f64>) -> HalfSpaceShear {
         let digits = |value: f64| minus(&format!("{value:.4}"));
         let half_space = digits(self.traction_coefficient);
         let all = [
@@ -179,7 +179,7 @@ impl Steady {
             .into_iter()
             .filter_map(|(whose, value)| Some(format!("{whose} {}", digits(value?))))
             .collect();
-        Drawn {
+        HalfSpaceShear {
             label: format!("p_{{f}}, half-space, steady, T/N = {half_space}"),
             points: self.centreline,
             text: format!(

@@ -11,7 +11,7 @@ pub(crate) use self::basis::RecordBasis;
 use self::contact::{ContactRecord, RollingStep};
 use self::row::Whereabouts;
 use self::surfaces::{Surfaces, labels};
-use crate::case::schema::{Case, StressField, Stresses};
+use crate::case::schema::{Case, StressField, StressOutput};
 use crate::run::error::RunError;
 use crate::run::means::Means;
 use crate::run::mesh_mode::WatchedFaces;
@@ -40,7 +40,7 @@ pub(crate) struct Recorder {
     velocity: Vec<Vector3<f64>>,
     fields: Schedule,
     probes: Option<Probes>,
-    stress: Stresses,
+    stress: StressOutput,
     /// Stress of the elements (Pa) at a snapshot.
     cauchy: Vec<[f64; 6]>,
     /// Nodes of the disk, which moves with the hub but for its deformation.
