@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::step::{Ended, Outcome, built, done, output};
+use crate::step::{Ended, built, done, output, skipped};
 
 /// What is tried.
 #[derive(Clone, Copy, Debug, clap::ValueEnum)]
@@ -28,18 +28,10 @@ pub fn soak(root: &Path, trial: Trial, options: &[impl AsRef<str>]) -> Ended {
     done(trial.args(options.iter().map(AsRef::as_ref)).current_dir(root))
 }
 
-/// The same 30 damaged files in every `validate`.
-pub fn sample_of_damage(root: &Path) -> Ended {
-    soak(root, Trial::Damage, &["--mutations", "15", "--seed", "1"])
-}
-
 /// The same eight kills of each kind of run in every `validate`.
 pub fn sample_of_kills(root: &Path) -> Ended {
     if output(Command::new("strace").args(["-f", "-o", "/dev/null", "true"])).is_err() {
-        eprintln!(
-            "warning: there is no strace that may trace; the kills at system calls were skipped"
-        );
-        return Ok(Outcome::Skipped);
+        return skipped("there is no strace that may trace; the trial of kills at system calls");
     }
     soak(root, Trial::Kills, &["--points", "8"])
 }

@@ -58,9 +58,17 @@ pub fn missing(problem: String, what: &str) -> Ended {
     if env::var_os("CI").is_some() {
         return Err(problem);
     }
-    eprintln!("warning: {problem}; {what} was skipped");
+    skipped(&format!("{problem}; {what}"))
+}
+
+/// Says why a step is not made.
+pub fn skipped(why: &str) -> Ended {
+    eprintln!("warning: {why} was skipped");
     Ok(Outcome::Skipped)
 }
+
+/// How Python installs packages, quietly.
+pub const PIP: [&str; 5] = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
 
 /// The interpreter of a virtual environment under the target folder with the requirements of
 /// the checks, made on the first call.
@@ -80,9 +88,7 @@ pub fn python(root: &Path) -> Result<PathBuf, String> {
         format!("{problem} (on Debian and Ubuntu: apt-get install python3-venv)")
     })?;
     // most of what is installed is never run
-    let pip =
-        ["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--no-compile", "-r"];
-    done(Command::new(&python).args(pip).arg(&requirements))?;
+    done(Command::new(&python).args(PIP).args(["--no-compile", "-r"]).arg(&requirements))?;
     fs::write(&installed, wanted).map_err(|error| error.to_string())?;
     Ok(python)
 }
@@ -114,6 +120,11 @@ pub fn sample(root: &Path) -> Option<usize> {
     env::var_os("CI")?;
     let commit = output(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root));
     Some(commit.unwrap_or_default().bytes().map(usize::from).sum::<usize>() % 3)
+}
+
+/// The same for programs of tests, which read it from this variable: `K/3`.
+pub fn sample_variable(root: &Path) -> Option<(&'static str, String)> {
+    sample(root).map(|third| ("CREEPAGE_SAMPLE", format!("{third}/3")))
 }
 
 /// Runs a command to its end.

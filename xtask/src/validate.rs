@@ -6,11 +6,12 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 use std::time::Instant;
 
+use crate::soak::{Trial, sample_of_kills, soak};
 use crate::step::{
-    Ended, Outcome, Step, built, cargo, done, missing, output, python, root, sample, target,
-    without,
+    Ended, Outcome, Step, built, cargo, done, missing, output, python, root, sample,
+    sample_variable, skipped, target, without,
 };
-use crate::{book, book_test, markdown, results, soak, sources, structure, wheel};
+use crate::{book, book_test, markdown, results, sources, structure, wheel};
 
 /// The steps, cheapest first.
 pub const STEPS: [(&str, Step); 20] = [
@@ -29,8 +30,9 @@ pub const STEPS: [(&str, Step); 20] = [
     ("report page", report_page),
     ("sweep through Dask", |root| with_program(root, "check_dask.py")),
     ("full and read-only disks", |root| with_program(root, "check_disk.py")),
-    ("damaged files", soak::sample_of_damage),
-    ("kills at system calls", soak::sample_of_kills),
+    // the same 30 damaged files each time
+    ("damaged files", |root| soak(root, Trial::Damage, &["--mutations", "15", "--seed", "1"])),
+    ("kills at system calls", sample_of_kills),
     ("Python package", wheel::tests),
     ("book", book::step),
     ("commands of the book", book_test::step),
@@ -82,33 +84,40 @@ fn documentation(root: &Path) -> Ended {
 fn tests(root: &Path) -> Ended {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
-    let third = sample(root);
-    let problems = third.map(|third| format!("{third}/3"));
+    let third = sample_variable(root);
     let mut vars = vec![("CREEPAGE_PYTHON", &*python)];
-    vars.extend(problems.as_deref().map(|third| ("CREEPAGE_SAMPLE", third)));
-    let left_out = third.map(|third| left_out(root, third)).transpose()?.unwrap_or_default();
+    vars.extend(third.as_ref().map(|(name, third)| (*name, &**third)));
+    let left_out = sample(root).map(|third| left_out(root, third)).transpose()?.unwrap_or_default();
     let mut test = vec!["test", "--release", "--workspace", "--"];
     test.extend(left_out.iter().flat_map(|name| ["--skip", &**name]));
     cargo(root, &test, &vars)
 }
 
-/// Modules of tests that take from seconds to a minute each: whole runs, planted errors, kills.
-const LONG: &str = "checkpoint exact friction_laws half_model half_space own_mu plane_strain planted preload resume \
-                    sideways sweep window";
+/// Modules of tests, and tests, that take from seconds to a minute each: whole runs, planted errors, kills.
+const LONG: &str = "
+    checkpoint contact_layers damage determinism disk exact friction_laws half_model half_space nearly_incompressible
+    own_mu plane_strain planted preload resume sideways slider stopped sweep terminal window
+    a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds
+    figures::reference::tests::steady_rolling_of_half_spaces_is_that_of_contact
+    tests::implicit::elastic_energy_is_kept_with_theta_one_half_and_lost_with_theta_one_as_booked
+    tests::search::search_misses_no_node_of_a_disk_that_moves_smoothly";
 
 /// The long tests that are not of this third.
 fn left_out(root: &Path, third: usize) -> Result<Vec<String>, String> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let list = "test --release --workspace --lib --bins --tests --quiet -- --list".split(' ');
     let listed = output(Command::new(cargo).args(list).current_dir(root))?;
-    let names = listed.lines().filter_map(|line| line.strip_suffix(": test"));
-    let module = |name: &str| name.split("::").next().unwrap_or_default().to_owned();
-    let long: Vec<_> = LONG.split(' ').collect();
-    if let Some(gone) = long.iter().find(|long| !names.clone().any(|name| module(name) == **long)) {
-        return Err(format!("there is no module of tests `{gone}`"));
+    let names = || listed.lines().filter_map(|line| line.strip_suffix(": test"));
+    let is_of = |name: &str, long: &str| match name.strip_prefix(long) {
+        Some("") => true,
+        Some(rest) => rest.starts_with("::") && !rest.contains("::tests::"),
+        None => false,
+    };
+    let long = || LONG.split_whitespace();
+    if let Some(gone) = long().find(|long| !names().any(|name| is_of(name, long))) {
+        return Err(format!("there is no test or module of tests `{gone}`"));
     }
-    let is_long = |name: &&str| long.contains(&&*module(name)) && !name.contains("::tests::");
-    let long = names.clone().filter(is_long).enumerate();
+    let long = names().filter(|name| long().any(|long| is_of(name, long))).enumerate();
     Ok(long.filter(|(n, _)| n % 3 != third).map(|(_, name)| name.to_owned()).collect())
 }
 
@@ -137,10 +146,7 @@ fn libhdf5(root: &Path) -> Ended {
     }
     let found = Command::new("pkg-config").args(["--exists", "hdf5"]).status();
     if !found.is_ok_and(|status| status.success()) {
-        eprintln!(
-            "warning: pkg-config finds no hdf5 (Debian: libhdf5-dev); the comparison with it was skipped"
-        );
-        return Ok(Outcome::Skipped);
+        return skipped("pkg-config finds no hdf5 (Debian: libhdf5-dev); the comparison with it");
     }
     let run = target(root).join("smoke").display().to_string();
     // the other features of the whole workspace, so that no package of others is compiled twice
@@ -154,8 +160,7 @@ fn libhdf5(root: &Path) -> Ended {
 fn report_page(root: &Path) -> Ended {
     let browsers = ["chromium", "chromium-browser", "google-chrome"];
     if !browsers.iter().any(|name| Command::new(name).arg("--version").output().is_ok()) {
-        eprintln!("warning: there is no Chromium; tests/python/check_page.py was skipped");
-        return Ok(Outcome::Skipped);
+        return skipped("there is no Chromium; tests/python/check_page.py");
     }
     let folder = target(root).join("smoke");
     let mut report = Command::new(built(root, "creepage")?);

@@ -4,13 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::step::{Ended, done, files, missing, python, sample, search, target};
+use crate::step::{Ended, PIP, done, files, missing, python, sample_variable, search, target};
 
 /// Options of maturin that link for every Linux with glibc 2.17 or newer.
 const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
-
-/// Options of pip that keep it quiet.
-const QUIET: [&str; 5] = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
 
 /// Builds the wheel, for other machines too if `portable`.
 pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
@@ -19,7 +16,7 @@ pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
         return build(root, &python, &[]);
     }
     // the linker of portable wheels, beside maturin
-    done(Command::new(&python).args(QUIET).arg("ziglang==0.17.1"))?;
+    done(Command::new(&python).args(PIP).arg("ziglang==0.17.1"))?;
     build(root, &python, &PORTABLE)
 }
 
@@ -33,22 +30,19 @@ pub fn tests(root: &Path) -> Ended {
     let install = ["--force-reinstall", "--no-deps"];
     let wheel = build(root, &python, &[])?;
     // lasso-python asks for pandas below 3, which what is used of it does not need
-    done(Command::new(&python).args(QUIET).args(install).arg(&wheel).arg("lasso-python==2.0.4"))?;
+    done(Command::new(&python).args(PIP).args(install).arg(&wheel).arg("lasso-python==2.0.4"))?;
     done(Command::new(&python).arg(root.join("tests/python/check_wheel.py")).arg(&wheel))?;
+    // in the continuous integration a third of the longer tests, and one of the notebooks in turn
+    let third = sample_variable(root);
     let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
     let mut package = Command::new(&python);
-    package.args(pytest).current_dir(root.join("crates/python"));
+    package.args(pytest).envs(third.clone()).current_dir(root.join("crates/python"));
     // `creepage.verify` starts another program
     done(package.env("PATH", search([target(root).join("release")])?))?;
-    let notebooks = root.join("notebooks");
-    // in the continuous integration one of them in turn
-    let all: Vec<_> =
-        files(&notebooks).filter(|file| file.extension() == Some("ipynb".as_ref())).collect();
-    let chosen = match sample(root) {
-        Some(third) => all.into_iter().skip(third).step_by(3).collect(),
-        None => all,
-    };
-    done(Command::new(&python).arg(root.join("tests/python/notebooks.py")).args(chosen))
+    let folder = root.join("notebooks");
+    let notebooks = files(&folder).filter(|file| file.extension() == Some("ipynb".as_ref()));
+    let script = root.join("tests/python/notebooks.py");
+    done(Command::new(&python).arg(script).args(notebooks).envs(third))
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.

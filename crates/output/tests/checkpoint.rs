@@ -155,6 +155,7 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
         let folder = tempfile::tempdir().unwrap();
         let at_once = folder.path().join("at-once.vtkhdf");
         append(&mut TransientGrid::create(&at_once, grid, fields, &provenance()).unwrap(), 0..600);
+        let at_once = numbers(&at_once);
         // to nothing, within a chunk of rows, at its border, and with nothing to cut off
         for kept in [0, 1, 255, 256, 257, 599] {
             let path = folder.path().join("continued.vtkhdf");
@@ -170,7 +171,7 @@ fn a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds() {
             append(&mut writer, kept..600);
             assert_eq!(writer.kept(), whole, "cut off at {kept}");
             verify(&path, &whole).unwrap();
-            assert_eq!(numbers(&path), numbers(&at_once), "cut off at {kept}");
+            assert_eq!(numbers(&path), at_once, "cut off at {kept}");
         }
     });
 }

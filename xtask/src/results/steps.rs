@@ -112,14 +112,8 @@ mod tests {
         let printed = RefCell::default();
         let runner = Runner { root: folder.path(), search, program: String::new(), printed };
         let step = |command: &str, read: Option<&str>| {
-            let (name, command) = ("a".into(), command.into());
-            runner.step(&Step {
-                name,
-                command,
-                read: read.map(Into::into),
-                exit: 3,
-                chaotic: false,
-            })
+            let (name, command, read) = ("a".into(), command.into(), read.map(Into::into));
+            runner.step(&Step { name, command, read, exit: 3, chaotic: false })
         };
         let command = "echo '{\"n\": 1}' | tee -a out.json; exit 3";
         assert_eq!(step(command, None).unwrap()["n"], 1);

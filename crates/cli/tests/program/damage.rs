@@ -153,7 +153,7 @@ fn force_removes_the_checks_pages_and_figures_of_the_run_that_it_replaces_and_no
     assert_eq!(fs::read_to_string(out.join("notes.txt")).unwrap(), "mine");
 
     fs::remove_file(out.join("figures/mine.svg")).unwrap();
-    assert_eq!(creepage(&["plot"], &out).status.code(), Some(0));
+    assert_eq!(creepage(&["plot", "--format", "svg"], &out).status.code(), Some(0));
     run(&out, &["--force"]);
     assert!(!out.join("figures").exists());
 }
