@@ -1,5 +1,6 @@
 //! Self-contained HTML pages of a run and of a sweep, with figures inline: no network is needed.
 
+mod foreign;
 mod numbers;
 mod overview;
 mod runs;
@@ -326,8 +327,7 @@ fn repeating(folder: &Path) -> String {
 fn reproduce(out: &mut String, basis: &Basis, folder: &Path) {
     out.push_str("<h3 id=\"reproduce\">How to reproduce</h3>\n");
     let friction = basis.case.as_ref().and_then(|case| case.get("friction"));
-    // every run writes its history; records of another program have none
-    if basis.summary.is_none() && !output::is_ours(&folder.join(file::HISTORY)) {
+    if foreign::is_foreign(basis, folder) {
         out.push_str(
             "<p>The records are of another program, which alone can make them again.</p>\n",
         );

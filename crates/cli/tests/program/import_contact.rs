@@ -61,6 +61,40 @@ fn figures_of_one_body_say_whose_slip_velocity_they_draw() {
 }
 
 #[test]
+fn the_page_of_imported_records_says_what_they_cannot_show_and_has_the_figures_of_the_papers() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("contact.vtkhdf");
+    assert_eq!(import(&example(), &out).status.code(), Some(0));
+    let report = |more: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+        command.arg("report").arg(&out).arg("--case").arg(example().join("case.toml"));
+        let output = command.args(more).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+        fs::read_to_string(folder.path().join("report.html")).unwrap()
+    };
+    let page = report(&[]);
+    assert!(page.contains("The records are of another program."));
+    let (_, table) = page.split_once("id=\"not-judged\"").unwrap();
+    let (table, _) = table.split_once("</table>").unwrap();
+    for row in [
+        "<td>penetration, complementarity</td><td>the file has no field gap</td>",
+        "<td>mu_error, mu_error_uncertain, law_error_own</td><td>the file has no field mu</td>",
+        "<td>creepage</td>",
+        "<td>records lie 1.00 \u{3bc}s apart",
+        "<td>when rolling is steady</td>",
+    ] {
+        assert!(table.contains(row), "{row} is not in {table}");
+    }
+    assert!(!table.contains("law_error,"), "what was measured is not among it: {table}");
+    for figure in ["1-velocities", "2-stick-slip", "3-tractions", "4-bound"] {
+        assert!(page.contains(&format!("id=\"figure-{figure}\"")), "{figure}");
+    }
+    assert!(
+        report(&["--window", "1e-6:2e-6"]).contains("from 0.0010000 to 0.0020000 ms, in 2 records")
+    );
+}
+
+#[test]
 fn wrong_tables_are_refused_with_file_line_and_reason() {
     for (table, from, to, words) in [
         ("nodes", "x,y,z", "x,y", "no column \"z\""),

@@ -14,7 +14,7 @@ use output::layout::file;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::commands::check::{BasisOptions, basis, inputs};
+use crate::commands::check::{BasisOptions, SpanOptions, basis, inputs};
 use crate::commands::outputs::{claim, shown};
 use crate::commands::sweep_folder;
 use crate::commands::values::maybe_parsed;
@@ -34,6 +34,9 @@ pub struct ReportOptions {
     #[serde(deserialize_with = "maybe_parsed")]
     #[cfg_attr(feature = "clap", arg(long, value_name = "half-space"))]
     pub reference: Option<Reference>,
+    /// Over which span of time a run is judged.
+    #[cfg_attr(feature = "clap", command(flatten))]
+    pub span: SpanOptions,
     /// What the run is measured against.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub basis: BasisOptions,
@@ -68,14 +71,13 @@ impl Reported {
 /// Results that cannot be read; a page that cannot be written, or would be written over another file.
 pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
     let place = |folder: &Path| options.out.clone().unwrap_or_else(|| folder.join("report.html"));
-    if options.reference.is_some()
-        && !options.run.join(file::CONTACT).exists()
-        && options.run.is_dir()
-    {
-        return Err(Error::option(
-            format!("--reference: {} is no run", options.run.display()),
-            "give the folder of a run",
-        ));
+    let window = options.span.span()?;
+    let of_a_run =
+        [("--reference", options.reference.is_some()), ("--window, --transits", window.is_some())];
+    let is_run = options.run.join(file::CONTACT).exists() || !options.run.is_dir();
+    if let Some((option, _)) = of_a_run.iter().find(|(_, is_given)| *is_given && !is_run) {
+        let problem = format!("{option}: {} is no run", options.run.display());
+        return Err(Error::option(problem, "give the folder of a run"));
     }
     let (text, reported) = if let Some(found) = sweep_folder::read(&options.run)? {
         let page = place(&options.run);
@@ -93,14 +95,14 @@ pub fn report(options: &ReportOptions) -> Result<Reported, Error> {
         let page = place(&paths.folder);
         claim("--out", &page, &PAGE, &inputs(&paths))?;
         let wanted = Criteria {
-            window: None,
+            window,
             limits: Limits::for_enforcement(against.enforcement.as_deref()),
             report: Report::default(),
             map: None,
         };
         let checked = crate::check::check(&paths, &mut against, &wanted)?;
         let choice = Choice { reference: options.reference, ..Choice::default() };
-        let figures = crate::figures::figures(&paths, &mut against, None, &choice)?;
+        let figures = crate::figures::figures(&paths, &mut against, window, &choice)?;
         let text = crate::report::run_page(&against, &paths.folder, &checked.result, &figures)?;
         (text, Reported { pass: Some(checked.result.pass), ..Reported::of(page) })
     };

@@ -1,6 +1,6 @@
 //! What happened: whether the run ended, whether its contact obeys the conditions, a picture, and the numbers that matter.
 
-use super::{escape, worth};
+use super::{escape, foreign, worth};
 use crate::check::basis::Basis;
 use crate::check::digits::digits;
 use crate::check::limits::Limit;
@@ -32,12 +32,17 @@ pub(super) fn contents(out: &mut String) {
 /// Appends the section.
 pub(super) fn section(out: &mut String, basis: &Basis, folder: &Path, checked: &CheckResult) {
     out.push_str("<h2 id=\"overview\">What happened</h2>\n");
-    let (class, text) = ending(basis);
+    let is_foreign = foreign::is_foreign(basis, folder);
+    let (class, text) =
+        if is_foreign { ("", "The records are of another program.".into()) } else { ending(basis) };
     let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
     for (class, text) in conditions(checked) {
         let _ = writeln!(out, "<p class=\"{class}\">{}</p>", escape(&text));
     }
     let _ = writeln!(out, "<div class=\"wide\">{}</div>", numbers(basis, checked));
+    if is_foreign {
+        foreign::not_judged(out, basis, checked);
+    }
     out.push_str(&super::scene::section(folder));
 }
 
@@ -56,10 +61,9 @@ fn ending(basis: &Basis) -> (&'static str, String) {
                 "The run failed: its own guards stopped it. The page shows what it reached. {diagnosis}"
             ),
         ),
-        None => (
-            "",
-            "The run has no summary: it is in progress, or its data come from elsewhere.".into(),
-        ),
+        None => {
+            ("", "The run has no summary: it is in progress, or was stopped before its end.".into())
+        }
     }
 }
 

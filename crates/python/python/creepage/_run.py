@@ -507,10 +507,10 @@ class Run:
         """Write a page with the interactive scene of the run [default: scene.html in its folder]; returns its path."""
         return Path(execute(_creepage.view, {"run": self.path, "out": out})[0]["page"])
 
-    def report(self, out=None, *, reference=None) -> Path:
-        """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path. ``reference`` is as of
-        :meth:`figures`."""
-        options = {"run": self.path, "out": out, "reference": reference}
+    def report(self, out=None, *, window=None, reference=None) -> Path:
+        """Write one self-contained HTML page [default: report.html in the run's folder]; returns its path. ``window`` and
+        ``reference`` are as of :meth:`figures`."""
+        options = {"run": self.path, "out": out, "span": _span(window), "reference": reference}
         return Path(execute(_creepage.report, options)[0]["page"])
 
     def to_pyvista(self, step=-1, what="fields"):
