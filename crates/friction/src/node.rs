@@ -33,11 +33,22 @@ pub enum Remembers {
 /// is [`begin`](Self::begin). In every later step it is first advanced with the slip speed of the step
 /// before; then [`mu`](Self::mu) gives the coefficient of this step.
 pub trait NodeFriction: Send + Sync + Debug {
-    /// State at the beginning of contact.
-    fn begin(&self, at: &NodeConditions) -> [f64; 2];
+    /// State at the beginning of contact; zero for laws that do not need another.
+    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
+        [0.0; 2]
+    }
 
-    /// State after a step `dt` (s) in which the node slipped at `slip_speed >= 0` (m/s).
-    fn advance(&self, state: [f64; 2], slip_speed: f64, at: &NodeConditions, dt: f64) -> [f64; 2];
+    /// State after a step `dt` (s) in which the node slipped at `slip_speed >= 0` (m/s); the same for laws without a
+    /// state.
+    fn advance(
+        &self,
+        state: [f64; 2],
+        _slip_speed: f64,
+        _at: &NodeConditions,
+        _dt: f64,
+    ) -> [f64; 2] {
+        state
+    }
 
     /// [`advance`](Self::advance) for all nodes of a step at once, for laws that are expensive to call, such as a
     /// Python function. The order of the nodes does not depend on the number of threads.
@@ -72,20 +83,6 @@ pub trait NodeFriction: Send + Sync + Debug {
 }
 
 impl NodeFriction for Coulomb {
-    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
-        [0.0; 2]
-    }
-
-    fn advance(
-        &self,
-        state: [f64; 2],
-        _slip_speed: f64,
-        _at: &NodeConditions,
-        _dt: f64,
-    ) -> [f64; 2] {
-        state
-    }
-
     fn mu(&self, _state: [f64; 2], _slip_speed: f64, _at: &NodeConditions) -> f64 {
         self.mu
     }
@@ -105,10 +102,6 @@ impl NodeFriction for Coulomb {
 pub struct Lagged<L>(pub L);
 
 impl<L: FrictionLaw> NodeFriction for Lagged<L> {
-    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn advance(
         &self,
         _state: [f64; 2],
@@ -137,20 +130,6 @@ impl<L: FrictionLaw> NodeFriction for Lagged<L> {
 pub struct Implicit<L>(pub L);
 
 impl<L: FrictionLaw> NodeFriction for Implicit<L> {
-    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
-        [0.0; 2]
-    }
-
-    fn advance(
-        &self,
-        state: [f64; 2],
-        _slip_speed: f64,
-        _at: &NodeConditions,
-        _dt: f64,
-    ) -> [f64; 2] {
-        state
-    }
-
     fn mu(&self, _state: [f64; 2], slip_speed: f64, at: &NodeConditions) -> f64 {
         self.0.mu_at(slip_speed, at)
     }

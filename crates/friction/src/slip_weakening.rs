@@ -52,10 +52,6 @@ pub struct SlipWeakening {
 }
 
 impl NodeFriction for SlipWeakening {
-    fn begin(&self, _at: &NodeConditions) -> [f64; 2] {
-        [0.0; 2]
-    }
-
     fn advance(
         &self,
         [slip, _]: [f64; 2],
