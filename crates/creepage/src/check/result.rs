@@ -611,11 +611,6 @@ impl CheckResult {
         }
     }
 
-    /// Hands out the measures that fail their limits.
-    pub fn beyond_limit(&self) -> impl Iterator<Item = Measure> + '_ {
-        self.metrics.iter().filter(|(_, metric)| !metric.pass).map(|(measure, _)| *measure)
-    }
-
     /// The measures with this verdict.
     pub fn with_verdict(&self, verdict: Verdict) -> Vec<Measure> {
         let found = self.metrics.iter().filter(|(_, metric)| metric.verdict() == verdict);
@@ -678,15 +673,5 @@ mod tests {
         assert_eq!(of(Some(1e-2), limit, false), Some(false));
         assert_eq!(of(Some(f64::INFINITY), limit, false), Some(false));
         assert_eq!(of(Some(1e-2), None, false), None);
-    }
-
-    #[test]
-    fn the_measures_beyond_their_limits_are_those_that_do_not_pass() {
-        let written = r#"{ "metrics": { "penetration": { "pass": true }, "cone": { "pass": false },
-            "direction": { "pass": false }, "tension": { "pass": true } } }"#;
-        let result: CheckResult = serde_json::from_str(written).unwrap();
-        let mut beyond: Vec<Measure> = result.beyond_limit().collect();
-        beyond.sort_unstable_by_key(|measure| measure.name());
-        assert_eq!(beyond, [Measure::Cone, Measure::Direction]);
     }
 }
