@@ -74,26 +74,6 @@ impl HalfSpaces {
         [scale * a / rayleigh, scale / a]
     }
 
-    /// What an impulse of force along a line (1 N s/m), along x and along y on the line x = 0, leaves of relative
-    /// displacement at `x > 0` (m) after the time t (s): Lamb's problem for shear on two half-spaces (m per N s/m).
-    ///
-    /// Cagniard's method: Im Y(q)/(pi x) with the compliance Y at the slowness q = t/x and frequency one; roots of
-    /// negative numbers are -i times a positive one.
-    pub fn line_impulse(&self, x: f64, t: f64) -> [f64; 2] {
-        let q = t / x;
-        let root = |c: f64| {
-            let square = 1.0 / (c * c) - q * q;
-            let size = square.abs().sqrt();
-            if square > 0.0 { Complex64::new(size, 0.0) } else { Complex64::new(0.0, -size) }
-        };
-        let (a, b) = (root(self.pressure_speed), root(self.shear_speed));
-        let square = self.shear_speed.powi(-2);
-        let scale = 2.0 / self.shear_modulus;
-        let rayleigh = (square - 2.0 * q * q).powi(2) + a * b * (4.0 * q * q);
-        let both = [b * (scale * square) / rayleigh, scale / b];
-        both.map(|y| y.im / (std::f64::consts::PI * x))
-    }
-
     /// Speed of Rayleigh waves (m/s): the zero of Rayleigh's function, by bisection.
     pub fn rayleigh_speed(&self) -> f64 {
         let q = self.slowness_ratio();
@@ -150,19 +130,6 @@ mod tests {
     fn the_rayleigh_speed_of_steel_is_that_of_the_tables() {
         let steel = steel();
         assert!((steel.rayleigh_speed() / steel.shear_speed - 0.92741).abs() < 1e-5);
-    }
-
-    #[test]
-    fn late_and_whole_line_impulses_agree_after_the_rayleigh_wave() {
-        let steel = steel();
-        for v in [0.1, 0.5, 0.9] {
-            let (x, t) = (0.01, 0.01 / (v * steel.shear_speed));
-            let (whole, late) = (steel.line_impulse(x, t), steel.late_line_impulse(v));
-            for c in 0..2 {
-                assert!((whole[c] * t / late[c] - 1.0).abs() < 1e-12, "{v}: {whole:?} {late:?}");
-            }
-        }
-        assert_eq!(steel.line_impulse(0.01, 0.99 * 0.01 / steel.pressure_speed), [0.0; 2]);
     }
 
     #[test]
