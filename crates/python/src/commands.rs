@@ -26,8 +26,8 @@ pub fn run<'py>(
 ) -> Answered<'py> {
     let law = law.map(|law| PythonLaw::new(py, law)).transpose()?.map(Arc::new);
     let mine = law.clone().map(|law| law as Arc<dyn OwnLaw>);
-    let answer = held(options, listen, move |options: RunOptions, told| {
-        let done = creepage::run(&RunOptions { law: mine, ..options }, told)?;
+    let answer = held(options, listen, move |options: RunOptions, listener| {
+        let done = creepage::run(&RunOptions { law: mine, ..options }, listener)?;
         Ok(Answer::new(done.exit_code(), &done.summary))
     });
     match law.and_then(|law| law.take_failure()) {
@@ -39,7 +39,9 @@ pub fn run<'py>(
 /// Builds the mesh of a case.
 #[pyfunction]
 pub fn mesh<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, told| Ok(Answer::new(0, &creepage::mesh(&options, told)?)))
+    held(options, listen, |options, listener| {
+        Ok(Answer::new(0, &creepage::mesh(&options, listener)?))
+    })
 }
 
 /// Checks a run against the contact conditions.
@@ -51,35 +53,37 @@ pub fn check<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
     })
 }
 
-/// Draws the figures of a run.
-#[pyfunction]
-pub fn plot<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::plot(&options)?)))
+/// Functions whose answer is the document of the library's function of the same name.
+macro_rules! documents {
+    ($($(#[$about:meta])* $name:ident)*) => {$(
+        $(#[$about])*
+        #[pyfunction]
+        pub fn $name<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
+            held(options, listen, |options, _| Ok(Answer::new(0, &creepage::$name(&options)?)))
+        }
+    )*};
 }
 
-/// The stress over the depth below the patch of a run, of the disk and of the bar.
-#[pyfunction]
-pub fn stress_profile<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::stress_profile(&options)?)))
-}
-
-/// Writes the page with the interactive scene of a run.
-#[pyfunction]
-pub fn view<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::view(&options)?)))
-}
-
-/// Writes the page about a run.
-#[pyfunction]
-pub fn report<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::report(&options)?)))
+documents! {
+    /// Draws the figures of a run.
+    plot
+    /// The stress over the depth below the patch of a run, of the disk and of the bar.
+    stress_profile
+    /// Writes the page with the interactive scene of a run.
+    view
+    /// Writes the page about a run.
+    report
+    /// Makes a case and a mesh file of a keyword file of LS-DYNA.
+    import_k
+    /// Reads the contact of a keyword file of any model.
+    interface_of_k
 }
 
 /// Runs a sweep.
 #[pyfunction]
 pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, told| {
-        let done = creepage::sweep(&options, told)?;
+    held(options, listen, |options, listener| {
+        let done = creepage::sweep(&options, listener)?;
         Ok(Answer::new(done.exit_code(), &done.result))
     })
 }
@@ -87,22 +91,10 @@ pub fn sweep<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
 /// Computes with the 1-D slider.
 #[pyfunction]
 pub fn slider<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, told| {
-        let found = creepage::slider(&options, told)?;
+    held(options, listen, |options, listener| {
+        let found = creepage::slider(&options, listener)?;
         Ok(Answer::new(found.exit_code(), &found))
     })
-}
-
-/// Makes a case and a mesh file of a keyword file of LS-DYNA.
-#[pyfunction]
-pub fn import_k<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::import_k(&options)?)))
-}
-
-/// Reads the contact of a keyword file of any model.
-#[pyfunction]
-pub fn interface_of_k<'py>(options: &str, listen: &Bound<'py, PyAny>) -> Answered<'py> {
-    held(options, listen, |options, _| Ok(Answer::new(0, &creepage::interface_of_k(&options)?)))
 }
 
 /// JSON Schema of a case, as JSON text.
