@@ -5,7 +5,7 @@ use crate::ls_dyna::contact_card;
 use crate::ls_dyna::deck::{Deck, Hourglass, Inertia, Material, Node, Part, Solid, Target};
 use crate::ls_dyna::error::{DeckError, DeckLine, second, syntax, unsupported};
 use crate::ls_dyna::fields::{
-    Layout, absent, number, other_axis, output, real, real_or, rests, whole, zero,
+    Layout, absent, number, numbers, other_axis, output, real, real_or, rests, whole, zero,
 };
 
 const NODE: Layout<4> = Layout::new(&[
@@ -17,32 +17,12 @@ const NODE: Layout<4> = Layout::new(&[
     zero("RC").wide(8),
 ]);
 
-const SOLID: Layout<10> = Layout::new(&[
-    number("EID").wide(8),
-    number("PID").wide(8),
-    number("N1").wide(8),
-    number("N2").wide(8),
-    number("N3").wide(8),
-    number("N4").wide(8),
-    number("N5").wide(8),
-    number("N6").wide(8),
-    number("N7").wide(8),
-    number("N8").wide(8),
-]);
+const SOLID: Layout<10> =
+    Layout::new(&numbers(["EID", "PID", "N1", "N2", "N3", "N4", "N5", "N6", "N7", "N8"]));
 
 /// The nodes of an element on a line of their own.
-const SOLID_NODES: Layout<10> = Layout::new(&[
-    number("N1").wide(8),
-    number("N2").wide(8),
-    number("N3").wide(8),
-    number("N4").wide(8),
-    number("N5").wide(8),
-    number("N6").wide(8),
-    number("N7").wide(8),
-    number("N8").wide(8),
-    number("N9").wide(8),
-    number("N10").wide(8),
-]);
+const SOLID_NODES: Layout<10> =
+    Layout::new(&numbers(["N1", "N2", "N3", "N4", "N5", "N6", "N7", "N8", "N9", "N10"]));
 
 const PART: Layout<4> = Layout::new(&[
     number("PID"),

@@ -74,6 +74,17 @@ pub(super) const fn number(name: &'static str) -> Field {
     field(name, Role::Taken(Taken::Number))
 }
 
+/// Fields of eight columns that name things by their numbers.
+pub(super) const fn numbers<const N: usize>(names: [&'static str; N]) -> [Field; N] {
+    let mut fields = [number("").wide(8); N];
+    let mut i = 0;
+    while i < N {
+        fields[i].name = names[i];
+        i += 1;
+    }
+    fields
+}
+
 /// A field without a place in a case, which must be blank or 0.
 pub(super) const fn zero(name: &'static str) -> Field {
     field(name, Role::Rests(&[]))
