@@ -3,6 +3,32 @@
 use super::{Lanes, Padded, operators, ordered_sum};
 use std::arch::x86_64::*;
 
+/// The methods of [`Lanes`] that are one instruction.
+macro_rules! arithmetic {
+    ($splat:ident $min:ident $sqrt:ident $fma:ident $fnma:ident) => {
+        #[inline(always)]
+        unsafe fn splat(v: f64) -> Self {
+            unsafe { Self($splat(v)) }
+        }
+        #[inline(always)]
+        fn min(self, o: Self) -> Self {
+            unsafe { Self($min(self.0, o.0)) }
+        }
+        #[inline(always)]
+        fn sqrt(self) -> Self {
+            unsafe { Self($sqrt(self.0)) }
+        }
+        #[inline(always)]
+        fn fma(self, b: Self, c: Self) -> Self {
+            unsafe { Self($fma(self.0, b.0, c.0)) }
+        }
+        #[inline(always)]
+        fn fnma(self, b: Self, c: Self) -> Self {
+            unsafe { Self($fnma(self.0, b.0, c.0)) }
+        }
+    };
+}
+
 #[derive(Clone, Copy)]
 pub(crate) struct F64x8(__m512d);
 
@@ -18,26 +44,7 @@ operators! { F64x8:
 // `Padded` is 32 bytes on a 32-byte boundary, so aligned 256-bit access is right.
 impl Lanes for F64x8 {
     const N: usize = 8;
-    #[inline(always)]
-    unsafe fn splat(v: f64) -> Self {
-        unsafe { Self(_mm512_set1_pd(v)) }
-    }
-    #[inline(always)]
-    fn min(self, o: Self) -> Self {
-        unsafe { Self(_mm512_min_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm512_sqrt_pd(self.0)) }
-    }
-    #[inline(always)]
-    fn fma(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm512_fmadd_pd(self.0, b.0, c.0)) }
-    }
-    #[inline(always)]
-    fn fnma(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm512_fnmadd_pd(self.0, b.0, c.0)) }
-    }
+    arithmetic! { _mm512_set1_pd _mm512_min_pd _mm512_sqrt_pd _mm512_fmadd_pd _mm512_fnmadd_pd }
     #[inline(always)]
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         unsafe {
@@ -142,26 +149,7 @@ operators! { F64x4:
 // SAFETY of the whole impl: the trait's contract gives AVX2 and FMA; the rest as above.
 impl Lanes for F64x4 {
     const N: usize = 4;
-    #[inline(always)]
-    unsafe fn splat(v: f64) -> Self {
-        unsafe { Self(_mm256_set1_pd(v)) }
-    }
-    #[inline(always)]
-    fn min(self, o: Self) -> Self {
-        unsafe { Self(_mm256_min_pd(self.0, o.0)) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        unsafe { Self(_mm256_sqrt_pd(self.0)) }
-    }
-    #[inline(always)]
-    fn fma(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm256_fmadd_pd(self.0, b.0, c.0)) }
-    }
-    #[inline(always)]
-    fn fnma(self, b: Self, c: Self) -> Self {
-        unsafe { Self(_mm256_fnmadd_pd(self.0, b.0, c.0)) }
-    }
+    arithmetic! { _mm256_set1_pd _mm256_min_pd _mm256_sqrt_pd _mm256_fmadd_pd _mm256_fnmadd_pd }
     #[inline(always)]
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         unsafe {
