@@ -13,7 +13,7 @@ use std::time::{Instant, SystemTime};
 use crate::case::hertz::hertz;
 use crate::case::schema::{Case, Symmetry};
 use crate::case::validation;
-use crate::run::checkpoint::{State, remove_checkpoints};
+use crate::run::checkpoint::remove_checkpoints;
 use crate::run::cost::cost;
 use crate::run::disk::Disk;
 use crate::run::error::RunError;
@@ -158,7 +158,7 @@ fn run_in_pool(
         output,
         keeping,
     };
-    conclude(case, options, &simulation, &facts, &ending, &basis.provenance, &held, &mut log)
+    conclude(case, options, &simulation, &facts, &ending, &basis, &held, &mut log)
 }
 
 /// Writes into the log what is known before the disk rolls.
@@ -183,7 +183,7 @@ fn log_facts(
 }
 
 /// What the files of the run are made from besides the case.
-fn basis(case: &Case, options: &RunOptions, point: Option<&ResumePoint<State>>) -> RecordBasis {
+fn basis<S>(case: &Case, options: &RunOptions, point: Option<&ResumePoint<S>>) -> RecordBasis {
     RecordBasis {
         folder: options.folder(case),
         provenance: Provenance {
@@ -211,14 +211,14 @@ pub(crate) fn kinds(case: &Case) -> Vec<(String, String)> {
         .collect()
 }
 
-/// Writes the summary, and removes the checkpoints of a run that is complete.
+/// Says what to know of the means, and writes the summary.
 fn conclude(
     case: &Case,
     options: &RunOptions,
     simulation: &Simulation,
     facts: &InitialState,
     ending: &Ending,
-    made: &Provenance,
+    basis: &RecordBasis,
     held: &FolderLock,
     log: &mut Log,
 ) -> Result<Summary, RunError> {
@@ -228,19 +228,28 @@ fn conclude(
     }
     ending.means.mesh_mode.warnings(case).iter().try_for_each(|line| log.warn(line))?;
     let mut summary = summary(case, simulation, facts, &hertz(case), ending);
-    if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
-        summary.friction_law = Some(points);
-    }
+    summary.friction_law = options.law.as_deref().and_then(friction::sampled);
     if case.mesh.window.is_some() {
         let (travel, energy) = (simulation.travel().x, simulation.ledger().moved);
         summary.mesh_window = Some(MeshWindow { travel, energy });
     }
+    close(basis, summary, ending.status, held, log)
+}
+
+/// Writes the summary of a run that ended with `status`, and removes the checkpoints of one that is complete.
+fn close(
+    basis: &RecordBasis,
+    summary: Summary,
+    status: Status,
+    held: &FolderLock,
+    log: &mut Log,
+) -> Result<Summary, RunError> {
     held.check_owner()?;
-    let summary = summary.write(&options.folder(case), made)?;
-    if ending.status == Status::Completed {
-        remove_checkpoints(&options.folder(case))?;
+    let summary = summary.write(&basis.folder, &basis.provenance)?;
+    if status == Status::Completed {
+        remove_checkpoints(&basis.folder)?;
     }
-    let (status, steps, wall) = (ending.status, summary.steps, summary.wall_s);
+    let (steps, wall) = (summary.steps, summary.wall_s);
     log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
     Ok(summary)
 }

@@ -5,8 +5,7 @@ mod recorder;
 
 use super::observer::Observer;
 use super::opening::{OpenRun, Opening, open};
-use super::{complete, kinds, stage};
-use crate::case::hertz::hertz;
+use super::{basis, complete, stage};
 use crate::case::schema::Case;
 use crate::run::checkpoint::{Clock, RunState};
 use crate::run::error::RunError;
@@ -22,12 +21,12 @@ use crate::scenario::{HalfSpaceModel, ScenarioError, drive, half_space};
 use dynamics::Energies;
 use ending::{Ended, conclude};
 use halfspace::{Rolling, RollingState, StepSums};
+use output::NotWritten;
 use output::layout::file;
 use output::summary::{Status, Summary};
-use output::{NotWritten, Provenance};
 use recorder::{HalfSpaceRecorder, HalfSpaceRecorderState};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, Instant};
 
 /// A step whose friction converged no better than this (of the largest trial velocity, which is some hundred times the
 /// largest slip velocity) ends the run.
@@ -58,20 +57,7 @@ pub(super) fn run(
     if point.is_none() {
         model.warnings.iter().try_for_each(|line| log.warn(line))?;
     }
-    let basis = RecordBasis {
-        folder: options.folder(case),
-        provenance: Provenance {
-            creepage_version: env!("CARGO_PKG_VERSION").into(),
-            case_hash: case.hash(),
-            created: match &point {
-                Some(point) => point.checkpoint.provenance.created.clone(),
-                None => humantime::format_rfc3339_seconds(SystemTime::now()).to_string(),
-            },
-            attributes: kinds(case),
-        },
-        hertz_pressure: hertz(case).p0,
-        keeps: point.as_ref().map(|point| point.checkpoint.results.clone()),
-    };
+    let basis = basis(case, options, point.as_ref());
     held.check_owner()?;
     if point.is_some() {
         remove(&options.folder(case).join(file::SUMMARY))?;
@@ -110,7 +96,7 @@ pub(super) fn run(
         rolling: before[1] + since[1].elapsed(),
         keeping,
     };
-    conclude(case, options, &model, ended, &basis.provenance, &held, &mut log)
+    conclude(case, options, &model, ended, &basis, &held, &mut log)
 }
 
 fn tell(model: &HalfSpaceModel, log: &mut Log) -> Result<(), NotWritten> {

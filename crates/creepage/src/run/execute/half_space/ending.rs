@@ -3,18 +3,18 @@
 use super::recorder::SolverFacts;
 use crate::case::hertz::hertz;
 use crate::case::schema::Case;
-use crate::run::checkpoint::remove_checkpoints;
 use crate::run::error::RunError;
+use crate::run::execute::close;
 use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::means::Means;
 use crate::run::options::RunOptions;
+use crate::run::record::RecordBasis;
 use crate::run::summary::{contact_means, half_space, window};
 use crate::scenario::HalfSpaceModel;
 use crate::scenario::memory::peak_rss_mb;
 use dynamics::Energies;
 use output::summary::{Checks, Energy, Files, Spectral, Status, Summary};
-use output::{LOG_END, Provenance};
 use std::time::Duration;
 
 /// How a run of half-spaces ended.
@@ -33,13 +33,13 @@ pub(super) struct Ended {
     pub(super) keeping: Duration,
 }
 
-/// Writes the summary, and removes the checkpoints of a run that is complete.
+/// Says what to know of the means, and writes the summary.
 pub(super) fn conclude(
     case: &Case,
     options: &RunOptions,
     model: &HalfSpaceModel,
     ended: Ended,
-    made: &Provenance,
+    basis: &RecordBasis,
     held: &FolderLock,
     log: &mut Log,
 ) -> Result<Summary, RunError> {
@@ -48,17 +48,8 @@ pub(super) fn conclude(
         ended.means.load_warning(case).iter().try_for_each(|line| log.warn(line))?;
     }
     let mut summary = summary(case, options, model, &ended);
-    if let Some(points) = options.law.as_deref().and_then(friction::sampled) {
-        summary.friction_law = Some(points);
-    }
-    held.check_owner()?;
-    let summary = summary.write(&options.folder(case), made)?;
-    if ended.status == Status::Completed {
-        remove_checkpoints(&options.folder(case))?;
-    }
-    let (status, steps, wall) = (ended.status, summary.steps, summary.wall_s);
-    log.say(&format!("{LOG_END}{status:?} after {steps} steps, {wall:.1} s"))?;
-    Ok(summary)
+    summary.friction_law = options.law.as_deref().and_then(friction::sampled);
+    close(basis, summary, ended.status, held, log)
 }
 
 fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &Ended) -> Summary {
