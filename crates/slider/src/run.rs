@@ -4,6 +4,7 @@ use crate::stick::{Ringing, StickWatch};
 use crate::{
     Parameters, State, exact_step, explicit_step, implicit_step, memory_step, penalty_step,
 };
+use serde::Serialize;
 use std::ops::ControlFlow;
 use thiserror::Error;
 
@@ -40,7 +41,7 @@ impl Method {
 }
 
 /// The characteristic values of the paper's tables, the quality of adhesion, and the effort.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Outcome {
     /// Smallest position (m).
     pub x_min: f64,
@@ -57,12 +58,16 @@ pub struct Outcome {
     /// Steps taken.
     pub steps: u64,
     /// Whether the observer stopped the run before its end.
+    #[serde(skip)]
     pub stopped: bool,
     /// Picard iterations of all steps; like the next two, zero for methods other than the implicit one.
+    #[serde(rename = "picard_iterations")]
     pub picard: u64,
     /// Most Picard iterations of one step.
+    #[serde(rename = "most_picard_iterations")]
     pub most_picard: u32,
     /// Steps that needed the bracketing fallback.
+    #[serde(rename = "fallback_steps")]
     pub fallbacks: u64,
 }
 

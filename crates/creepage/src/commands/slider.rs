@@ -10,7 +10,7 @@ use std::sync::atomic::Ordering;
 
 use crate::figures::slider::{self as figures, figure_6, figure_7, figure_8, time_step_map};
 use ::slider::tables::{self, Tables};
-use ::slider::{Method, Outcome, Parameters, Ringing, Thresholds};
+use ::slider::{Method, Outcome, Parameters, Thresholds};
 use output::files::made::SLIDER;
 use output::summary::Status;
 use serde::{Deserialize, Serialize};
@@ -106,26 +106,11 @@ pub struct SliderResult {
     pub mass: f64,
     /// Damping (N s/m).
     pub damping: f64,
-    /// Least displacement (m).
-    pub x_min: f64,
-    /// Largest displacement after t = 0.7 s (m).
-    pub x_max: f64,
-    /// Largest velocity (m/s).
-    pub v_max: f64,
+    /// What it came to.
+    #[serde(flatten)]
+    pub outcome: Outcome,
     /// Whether it was interrupted.
     pub status: Status,
-    /// Steps taken.
-    pub steps: u64,
-    /// Root mean square of the slip velocity in adhesion (m/s).
-    pub adhesion_slip: f64,
-    /// Spurious slip after the belt has captured the block.
-    pub ringing: Option<Ringing>,
-    /// Iterations of the implicit method.
-    pub picard_iterations: u64,
-    /// Most of them in a step.
-    pub most_picard_iterations: u32,
-    /// Steps that were solved by bracketing.
-    pub fallback_steps: u64,
     /// The figures that were drawn.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub figures: Vec<String>,
@@ -139,16 +124,8 @@ impl From<SliderRun> for SliderResult {
             dt: parameters.dt,
             mass: parameters.mass,
             damping: parameters.damping,
-            x_min: outcome.x_min,
-            x_max: outcome.x_max,
-            v_max: outcome.v_max,
+            outcome,
             status: if outcome.stopped { Status::Interrupted } else { Status::Completed },
-            steps: outcome.steps,
-            adhesion_slip: outcome.adhesion_slip,
-            ringing: outcome.ringing,
-            picard_iterations: outcome.picard,
-            most_picard_iterations: outcome.most_picard,
-            fallback_steps: outcome.fallbacks,
             figures: figures.iter().map(|path| path.display().to_string()).collect(),
         }
     }
