@@ -423,7 +423,7 @@ fn on_face(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::plates::{STEEL, plate};
+    use crate::tests::plates::{STEEL, plate};
 
     /// The half y >= 0 of a roof whose ridge lies in the plane of symmetry, as a surface and its nodes.
     fn roof(symmetric: bool) -> (ContactSurface, Vec<Padded>) {

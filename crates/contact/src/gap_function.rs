@@ -142,7 +142,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::Normals;
-    use crate::plates::{STEEL, plate, together};
+    use crate::tests::plates::{STEEL, plate, together};
 
     #[test]
     fn the_gaps_between_two_plates_are_their_distance_from_the_slaves_of_either_side() {

@@ -25,8 +25,6 @@ mod penalty;
 mod penalty_enforcement;
 mod penalty_point;
 mod penalty_springs;
-#[cfg(test)]
-mod plates;
 mod point;
 mod renumber;
 mod search;

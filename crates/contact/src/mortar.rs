@@ -217,13 +217,13 @@ impl Mortar {
             share.weight /= area;
             share.gradient /= area;
         }
-        self.settle(mean, sides, positions, slave, unit(normal), gap / area);
+        self.complete(mean, sides, positions, slave, unit(normal), gap / area);
         mean.reach = STALE * f64::min(area.sqrt(), master.faces[near as usize].size);
         (near, true)
     }
 
     /// Moves the weights under the node and keeps what the constraint follows.
-    fn settle(
+    fn complete(
         &self,
         mean: &mut Mean,
         [own, master]: [&ContactSurface; 2],
@@ -399,7 +399,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::Trace;
-    use crate::plates::{STEEL, plate, together, tread};
+    use crate::tests::plates::{STEEL, plate, together, tread};
     use mesh::{Mesh, Padded, Surface};
     use nalgebra::Rotation3;
 

@@ -106,7 +106,7 @@ impl NodalNormals {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::plates::{STEEL, tread};
+    use crate::tests::plates::{STEEL, tread};
     use mesh::Padded;
 
     #[test]

@@ -268,7 +268,7 @@ impl ContactSurface {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::plates::{STEEL, plate};
+    use crate::tests::plates::{STEEL, plate};
 
     #[test]
     fn tributary_areas_of_a_plane_plate_add_up_to_its_area() {

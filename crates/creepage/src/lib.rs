@@ -103,8 +103,6 @@ mod commands;
 pub mod compare;
 pub mod figures;
 pub mod ls_dyna;
-#[cfg(test)]
-mod modules;
 pub mod python;
 pub mod report;
 pub mod rule;
@@ -113,6 +111,8 @@ pub mod scenario;
 pub mod scene;
 pub mod subsurface;
 pub mod sweep;
+#[cfg(test)]
+mod tests;
 pub mod trends;
 
 pub use ::slider::tables::{TableRow, Tables};

@@ -1,8 +1,8 @@
 use super::{Rig, SETTINGS};
 use crate::face::{Positions, project};
-use crate::plates::{STEEL, plate, tread};
 use crate::search::Listed;
 use crate::surface::ContactSurface;
+use crate::tests::plates::{STEEL, plate, tread};
 use crate::{ContactStep, PenaltySettings};
 use friction::Coulomb;
 use mesh::Padded;

@@ -3,7 +3,7 @@
 
 use super::exact::Masses;
 use super::{Rig, SETTINGS};
-use crate::plates::{plate, tread};
+use crate::tests::plates::{plate, tread};
 use crate::{ContactSums, ExactSettings, Normals, PenaltySettings, Rows};
 use friction::Coulomb;
 use mesh::{Mesh, Surface};

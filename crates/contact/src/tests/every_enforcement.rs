@@ -2,9 +2,9 @@
 //! built, and over how many steps its forces turn with the bodies.
 
 use crate::constraint::{Constraint, MasterNode};
-use crate::plates::{STEEL, plate, together, tread};
 use crate::point::State;
 use crate::snapshot::Points;
+use crate::tests::plates::{STEEL, plate, together, tread};
 use crate::tests::{K, step_on_trace};
 use crate::{
     Contact, ContactState, ContactSums, ExactContact, ExactSettings, NodalContact, Normals,

@@ -1,5 +1,5 @@
 use super::step_on_trace;
-use crate::plates::{STEEL, plate, together, tread};
+use crate::tests::plates::{STEEL, plate, together, tread};
 use crate::{ContactSums, ContactTables, ExactContact, ExactSettings, NodalContact, Normals, Rows};
 use friction::{Coulomb, Exponential, Implicit, NodeFriction};
 use mesh::{Mesh, Padded, Surface};

@@ -1,7 +1,7 @@
 //! Exact contact in an implicit step of nodes that are masses without springs: their compliance over the step is `dt/m`, and
 //! it must find what an explicit step finds.
 
-use crate::plates::{STEEL, plate, together, tread};
+use crate::tests::plates::{STEEL, plate, together, tread};
 use crate::{
     ContactStep, ContactSums, ContactTables, ExactContact, ExactSettings, FreeMotion, Motion,
     NodalContact, Normals, Rows, Trace,

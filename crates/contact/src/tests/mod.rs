@@ -7,10 +7,11 @@ mod every_enforcement;
 mod exact;
 mod implicit;
 mod normal;
+pub(crate) mod plates;
 mod search;
 mod slip;
 
-use crate::plates::{STEEL, plate, together};
+use self::plates::{STEEL, plate, together};
 use crate::{
     Contact, ContactSums, FreeMotion, Normals, PenaltyContact, PenaltySettings, Stiffness,
     TraceFields, TraceStep,

@@ -1,5 +1,5 @@
 use super::{K, Rig, SETTINGS};
-use crate::plates::plate;
+use crate::tests::plates::plate;
 use crate::{ContactError, PenaltyContact, PenaltySettings, Stiffness};
 use friction::Coulomb;
 use mesh::{Mesh, Padded, Surface};
@@ -142,7 +142,7 @@ fn frictionless_call_gives_the_same_normal_forces() {
 #[test]
 fn damper_resists_closing_by_its_fraction_of_critical_and_its_work_is_booked() {
     let settings = PenaltySettings { damping: 0.1, ..SETTINGS };
-    let plate = |up| crate::plates::plate([0.0, 0.0], [8e-3, 8e-3], [6, 6], 0.0, 1e-3, up);
+    let plate = |up| crate::tests::plates::plate([0.0, 0.0], [8e-3, 8e-3], [6, 6], 0.0, 1e-3, up);
     let mut rig = Rig::new(plate(false), plate(true), &settings, Coulomb { mu: 0.3 });
     rig.shift([0.0, 0.0, -DEPTH]);
     let closing = 0.4;
@@ -232,7 +232,8 @@ fn diagonal_bounds_hold_for_the_largest_eigenvalue() {
 #[test]
 fn wrong_settings_are_refused() {
     let mesh = Mesh::default();
-    let surfaces = || [(&EMPTY, crate::plates::STEEL), (&EMPTY, crate::plates::STEEL)];
+    let surfaces =
+        || [(&EMPTY, crate::tests::plates::STEEL), (&EMPTY, crate::tests::plates::STEEL)];
     static EMPTY: Surface = Surface { faces: Vec::new(), smooth: None };
     let refused = |settings: PenaltySettings, mu: f64| {
         PenaltyContact::new(&mesh, surfaces(), &settings, None, Box::new(Coulomb { mu }))

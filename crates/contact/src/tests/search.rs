@@ -1,7 +1,7 @@
 use super::{K, Rig, SETTINGS};
 use crate::face::{Positions, project};
-use crate::plates::{plate, tread};
 use crate::search::Listed;
+use crate::tests::plates::{plate, tread};
 use friction::Coulomb;
 use nalgebra::{Rotation3, Vector3};
 use proptest::prelude::*;
