@@ -45,12 +45,12 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
         if json {
             report::print_json(&FailureResult::of(&error, error.exit_code()));
         }
-        told(error)
+        show_error(error)
     }))
 }
 
 /// Shows an error and returns its exit code.
-fn told(error: Error) -> u8 {
+fn show_error(error: Error) -> u8 {
     let code = error.exit_code();
     terminal::message(&format!("{:?}", Report::new(error)));
     code
@@ -59,7 +59,7 @@ fn told(error: Error) -> u8 {
 /// The exit code of a command that ended with `code`, by whether standard output took what it printed.
 fn printed(code: u8) -> u8 {
     let Some(cause) = terminal::failure() else { return code };
-    let failed = told(Error::Option {
+    let failed = show_error(Error::Option {
         problem: format!("standard output cannot be written: {cause}"),
         help: Some(
             "make room where it goes, and print again; files that the command wrote are complete"

@@ -109,7 +109,7 @@ pub struct SweepWatch<'a> {
     args: &'a Args,
     bar: ProgressBar,
     /// Runs done as of the last line.
-    told: usize,
+    reported: usize,
     begun: Option<Instant>,
 }
 
@@ -117,7 +117,7 @@ impl<'a> SweepWatch<'a> {
     /// A watch that has seen nothing yet.
     pub fn new(args: &'a Args) -> Self {
         let template = "{percent:>3}% {bar:12} {elapsed}, {eta} left, {msg}";
-        Self { args, bar: bar(args.quiet, template), told: 0, begun: None }
+        Self { args, bar: bar(args.quiet, template), reported: 0, begun: None }
     }
 }
 
@@ -141,8 +141,8 @@ impl Listener for SweepWatch<'_> {
             if now.failed > 0 { format!(", {} failed", now.failed) } else { String::new() };
         let (done, all) = (now.completed, now.runs);
         let said = format!("{done} of {all} runs done{failed}, {} running", now.running);
-        if self.bar.is_hidden() && self.told != done + now.failed {
-            self.told = done + now.failed;
+        if self.bar.is_hidden() && self.reported != done + now.failed {
+            self.reported = done + now.failed;
             let left = begun.elapsed().as_secs_f64() * (1.0 / now.fraction - 1.0);
             let left =
                 if left.is_finite() { format!(", about {left:.0} s left") } else { "".into() };

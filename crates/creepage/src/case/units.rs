@@ -70,9 +70,9 @@ pub(crate) fn meant(key: &Key, value: &Value) -> Option<String> {
     let x = furthest(value).filter(|x| x.is_finite() && !usual.range.holds(*x))?;
     let readings = usual.also_in.iter().map(|(unit, size)| (unit, x * size));
     let plausible = readings.filter(|(_, meant)| usual.range.holds(*meant));
-    let told = plausible.map(|(unit, meant)| format!("{} ({} {unit})", digits(meant), number(x)));
-    let told: Vec<_> = told.collect();
-    (!told.is_empty()).then(|| told.join(" or "))
+    let texts = plausible.map(|(unit, meant)| format!("{} ({} {unit})", digits(meant), number(x)));
+    let texts: Vec<_> = texts.collect();
+    (!texts.is_empty()).then(|| texts.join(" or "))
 }
 
 /// The number, or that of a table over time with the largest size.

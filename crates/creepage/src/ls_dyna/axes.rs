@@ -15,7 +15,7 @@ const NAMES: [&str; 3] = ["x", "y", "z"];
 ///
 /// # Errors
 /// Another frame, with what in the deck shows it.
-pub(crate) fn stand(
+pub(crate) fn check_frame(
     deck: &Deck,
     points: &[Vector3<f64>],
     nodes: &[BTreeSet<u32>; 2],

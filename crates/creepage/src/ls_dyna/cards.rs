@@ -290,7 +290,7 @@ impl<'a> Line<'a> {
         let mut next = taken.iter_mut();
         for field in layout.0 {
             let (word, after) = match rest.split_once(',') {
-                Some(parted) if commas => parted,
+                Some(at_comma) if commas => at_comma,
                 None if commas => (rest, ""),
                 _ => split_at_column(rest, width(field)),
             };

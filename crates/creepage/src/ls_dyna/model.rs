@@ -56,7 +56,7 @@ impl Model {
             let set = foreign.sets.entry(["disk", "bar"][body].to_owned()).or_default();
             set.hexes.push(e as u32);
         }
-        axes::stand(deck, &foreign.points, &nodes)?;
+        axes::check_frame(deck, &foreign.points, &nodes)?;
         // a node of the axle that bears mass is none of the mesh
         let meshed = |n: &u32| nodes.iter().any(|body| body.contains(n));
         foreign.sets.entry("hub".into()).or_default().nodes =

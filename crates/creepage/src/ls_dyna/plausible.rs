@@ -41,7 +41,7 @@ impl Numbers {
                 && within(self.radius * units.length(), RADIUS[1])
                 && within(self.speed * units.velocity(), SPEED[1])
         };
-        let fitting: Vec<_> = Units::all().filter(fits).map(|units| self.told(units)).collect();
+        let fitting: Vec<_> = Units::all().filter(fits).map(|units| self.in_units(units)).collect();
         if fitting.is_empty() {
             return Ok(());
         }
@@ -76,7 +76,7 @@ impl Numbers {
     }
 
     /// The units and what the numbers are in them.
-    fn told(&self, units: Units) -> String {
+    fn in_units(&self, units: Units) -> String {
         let [[density, young], _] = self.materials;
         format!(
             "{} (density {} kg/m^3, Young's modulus {} Pa, radius {} m, speed {} m/s)",

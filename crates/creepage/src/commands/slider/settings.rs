@@ -182,13 +182,13 @@ impl File {
             Ok(settings) => Ok(Self { settings, ..file }),
             Err(error) => {
                 let message = error.message().replace('\n', "; ");
-                let told = file.error(error.span(), &message, help);
+                let located = file.error(error.span(), &message, help);
                 // What is no TOML may be any file that can be read: of it a place is told, and no text.
                 let toml = toml::from_str::<toml::Table>(&file.text).is_ok();
                 Err(if toml {
-                    told
+                    located
                 } else {
-                    Box::new(SettingError { source_code: None, span: None, ..*told })
+                    Box::new(SettingError { source_code: None, span: None, ..*located })
                 })
             }
         }

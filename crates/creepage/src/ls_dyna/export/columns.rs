@@ -109,9 +109,9 @@ pub(super) fn label(index: u32) -> u64 {
 
 /// A number for a column of ten: of nine characters, so that a blank parts it from the one before, where these hold six digits.
 fn ten(x: f64) -> String {
-    let parted = in_width(x, 9);
-    let same = parted.parse().is_ok_and(|y: f64| (y - x).abs() <= 1e-6 * x.abs());
-    if same { parted } else { in_width(x, 10) }
+    let separated = in_width(x, 9);
+    let same = separated.parse().is_ok_and(|y: f64| (y - x).abs() <= 1e-6 * x.abs());
+    if same { separated } else { in_width(x, 10) }
 }
 
 /// A number for a column of twenty.
