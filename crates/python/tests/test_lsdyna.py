@@ -3,39 +3,21 @@
 import json
 import re
 import shutil
-import subprocess
 import sys
 
 import creepage
 import h5py
 import numpy as np
 import pytest
-from creepage import _lsdyna_command
+from creepage import _from_command, _lsdyna
 
 import binout
-from conftest import SMALL
+from conftest import RECORDED, computed, resolved, values
 
 pytest.importorskip("lasso.dyna.lsda_py3")
-KEYS = {"time.roll": 2e-3, "output.contact_interval": 2e-6}
 # the first record is that of the preload: it has no shear, which digits cannot tell from a little
 ROLLING = (1e-6, 1.0)
 SECOND = 3
-
-
-@pytest.fixture(scope="module")
-def there(tmp_path_factory):
-    """A run, and the folder in which LS-DYNA would have computed it: its deck, and when it rolls there."""
-    return computed(tmp_path_factory.mktemp("lsdyna"), KEYS)
-
-
-def computed(folder, keys):
-    run = creepage.run(SMALL, folder / "run", threads=1, **keys)
-    sets = [word for key, value in keys.items() for word in ("--set", f"{key}={json.dumps(value)}")]
-    deck = folder / "there" / "deck.k"
-    deck.parent.mkdir()
-    subprocess.run([sys.executable, "-m", "creepage", "export-k", SMALL, *sets, "--out", deck, "-q"], check=True)
-    begins = re.search(r"START_TIME\n\$.*\n *(\S+)", deck.read_text())
-    return run, deck, float(begins[1])
 
 
 @pytest.fixture(scope="module")
@@ -48,25 +30,6 @@ def imported(there):
 def order_of(there):
     """The nodes of the run in the order of their numbers in the deck."""
     return np.argsort(binout.labels(*there[:2]))
-
-
-def resolved(run, record):
-    """Pressure and shear of the run along the normals of its nodes, of which forces of nodes alone know."""
-    pressure, shear = (run.contact[name][record] for name in ("pressure", "shear"))
-    normal = binout.normals(run, run.contact["displacement"][record])
-    along = np.sum(shear * normal, axis=1)
-    return pressure - along, shear - along[:, None] * normal
-
-
-def values(check):
-    """Every measure by its name, the part of the interface and the pairing."""
-    found = {}
-    for name, metric in check["metrics"].items():
-        for side, parts in (metric.get("sides") or {}).items():
-            if isinstance(parts, dict):
-                of = {None: parts} if "value" in parts else parts
-                found |= {(name, side, at): part["value"] for at, part in of.items() if isinstance(part, dict)}
-    return found
 
 
 def test_tractions_and_motion_come_back_to_the_digits_of_the_deck(there, imported):
@@ -127,7 +90,7 @@ def test_other_files_orders_and_missing_states_change_nothing_else(there, import
     binout.write(run, deck, tmp_path, begins=begins, order=order, files=3, skip=[7])
     assert sorted(path.name for path in tmp_path.iterdir()) == ["binout0000", "binout0000%001", "binout0000%002"]
     out = tmp_path / "out"
-    document = _lsdyna_command.imported(tmp_path, deck, out, {"unit": "mm-ton-s"}, {})
+    document = _lsdyna.imported(tmp_path, deck, out, {"unit": "mm-ton-s"}, {})
     assert (document["unmatched"], document["records"]) == (1, len(run.contact.times) - 1)
     kept = np.delete(np.arange(len(run.contact.times)), 7)
     found = creepage.Run(out).contact
@@ -140,13 +103,13 @@ def test_other_files_orders_and_missing_states_change_nothing_else(there, import
 def test_forces_on_the_other_body_are_turned_over(there, imported, tmp_path):
     run, deck, begins = there
     binout.write(run, deck, tmp_path, begins=begins, turned=["master_1"])
-    document = _lsdyna_command.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    document = _lsdyna.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
     assert document["notes"][1:] == ["the forces of ncforc/master_1 pull: they were taken as those on the other body"]
     assert np.array_equal(creepage.Run(tmp_path / "out").contact["shear"][:], imported.contact["shear"][:])
 
 
 def test_half_a_model_becomes_the_whole(tmp_path):
-    run, deck, begins = computed(tmp_path, {**KEYS, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
+    run, deck, begins = computed(tmp_path, {**RECORDED, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
     binout.write(run, deck, deck.parent, begins=begins)
     whole = creepage.from_lsdyna(deck.parent, out=tmp_path / "imported").contact
     assert len(whole.points) == len(run.contact.points)
@@ -177,7 +140,7 @@ def test_numbers_of_four_bytes_keep_their_digits(there, imported, tmp_path):
 
 def refused(capsys, *words):
     """What the command says on standard error where it ends with 2."""
-    assert _lsdyna_command.main([str(word) for word in words]) == 2
+    assert _from_command.main(["from-lsdyna", *map(str, words)]) == 2
     return capsys.readouterr().err
 
 
@@ -223,7 +186,7 @@ def test_the_contact_of_any_model_is_judged_by_its_own_friction(there, imported,
     (tmp_path / "other.k").write_text(re.sub(r"(\*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE)\n", r"\1_ID\n1\n", other))
     out = tmp_path / "out"
     words = [deck.parent, "--deck", tmp_path / "other.k", "--wheel", 11, "--scale", "slip_speed=0.15556", "--out", out]
-    assert _lsdyna_command.main([*map(str, words), "--json"]) == 0
+    assert _from_command.main(["from-lsdyna", *map(str, words), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
     assert "MAT_PLASTIC_KINEMATIC" in document["notes"][0] and document["records"] == len(imported.contact.times)
     found = creepage.Run(out)

@@ -14,7 +14,7 @@ from ._run import _NAMES
 MESH = "mesh.inp"
 # wheel and rail by the labels of their faces
 SIDES = ("wheel", "rail")
-# corners of the faces of a brick, counter-clockwise from outside
+# corners of the faces of a brick in their order around it
 OF_BRICK = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 UNITS = (
     {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "in": 0.0254},
@@ -255,12 +255,19 @@ def tributary(points, faces):
     return area
 
 
-def skin(bricks, chosen):
-    """The outer faces of bricks whose corners are all chosen, by a mask of the nodes."""
+def skin(points, bricks, chosen):
+    """The outer faces of bricks whose corners are all chosen, by a mask of the nodes: counter-clockwise from outside,
+    whatever the order of the bricks' nodes."""
     faces = bricks[:, OF_BRICK].reshape(-1, 4)
     _, first, count = np.unique(np.sort(faces, axis=1), axis=0, return_index=True, return_counts=True)
-    outer = faces[np.sort(first[count == 1])]
-    return outer[chosen[outer].all(axis=1)]
+    outer = np.sort(first[count == 1])
+    outer = outer[chosen[faces[outer]].all(axis=1)]
+    faces, middle = faces[outer], points[bricks[outer // 6]].mean(axis=1)
+    corners = points[faces]
+    across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
+    inward = np.sum(across * (corners.mean(axis=1) - middle), axis=1) < 0
+    faces[inward] = faces[inward, ::-1]
+    return faces
 
 
 def case_of(out, law, scales) -> str:
