@@ -30,14 +30,14 @@ class Contact:
         return binout.forces(self.run, record, half=False)
 
     def stress(self, record):
-        """COPEN, CSLIP1, CSLIP2, CPRESS, CSHEAR1 and CSHEAR2 (MPa) at the nodes of the disk."""
+        """COPEN, CSLIP1, CSLIP2, CPRESS, CSHEAR1 and CSHEAR2 (MPa) at the nodes of the bar."""
         pressure, shear = resolved(self.run, record)
         normal = -binout.normals(self.run, self.run.contact["displacement"][record])
         first = np.array([1.0, 0, 0]) - normal[:, :1] * normal
         first /= np.linalg.norm(first, axis=1)[:, None]
         along, across = (np.sum(shear * axis, axis=1) for axis in (first, np.cross(normal, first)))
         zero = np.zeros(len(pressure))
-        return np.stack([zero, zero, zero, pressure, -along, -across], axis=1) * (self.body == binout.DISK)[:, None] / STRESS
+        return np.stack([zero, zero, zero, pressure, -along, -across], axis=1) * self.body[:, None] / STRESS
 
 
 def calculix(contact, folder):

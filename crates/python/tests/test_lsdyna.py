@@ -12,6 +12,7 @@ import pytest
 from creepage import _from_command, _lsdyna
 
 import binout
+import foreign
 from conftest import RECORDED, computed, resolved, values
 
 pytest.importorskip("lasso.dyna.lsda_py3")
@@ -136,6 +137,34 @@ def test_numbers_of_four_bytes_keep_their_digits(there, imported, tmp_path):
         assert 0 < off < close * np.abs(imported.contact[name][:]).max(), name
     mine, theirs = (values(one.check(window=ROLLING))["law_error", "pair", "before"] for one in (single, imported))
     assert mine == pytest.approx(theirs, rel=1e-3)
+
+
+def test_d3plot_stands_in_for_nodout_at_its_own_times_and_digits(there, imported, tmp_path):
+    run, deck, begins = there
+    binout.write(run, deck, tmp_path, begins=begins, without=["nodout"])
+    foreign.d3plot(run, deck, tmp_path, begins, every=5)
+    document = _lsdyna.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    kept = np.arange(0, len(run.contact.times), 5)
+    assert (document["records"], document["unmatched"]) == (len(kept), len(run.contact.times) - len(kept))
+    interval = np.diff(run.contact.times[kept]).max()
+    assert f"one state in {interval:.3g} of" in document["notes"][0]
+    found = creepage.Run(tmp_path / "out").contact
+    # 16 mm in four bytes leave 2e-6 mm, over faces of 0.8 mm
+    for name, close in [("pressure", 1e-5), ("shear", 1e-5), ("velocity", 1e-7)]:
+        off = np.abs(found[name][:] - imported.contact[name][:][kept]).max()
+        assert 0 < off < close * np.abs(imported.contact[name][:]).max(), name
+
+
+def test_without_contact_forces_nothing_is_judged(there, capsys, tmp_path):
+    run, deck, begins = there
+    foreign.d3plot(run, deck, tmp_path, begins)
+    (tmp_path / "intfor").write_bytes(b"")
+    line = " ".join(refused(capsys, tmp_path, "--deck", deck, "--out", tmp_path / "out").split())
+    for said in ["no binout; d3plot has no contact forces", "intfor cannot be read by lasso-python", "DATABASE_NCFORC"]:
+        assert said in line, line
+    binout.write(run, deck, tmp_path, begins=begins, without=["nodout"])
+    (tmp_path / "d3plot").write_bytes((tmp_path / "d3plot").read_bytes()[:1000])
+    assert "d3plot is damaged" in refused(capsys, tmp_path, "--deck", deck, "--out", tmp_path / "out")
 
 
 def refused(capsys, *words):

@@ -113,7 +113,9 @@ def motion(binout, folder):
     if "nodout" in binout.root.children or not (folder / "d3plot").exists():
         return Table(database(binout, "nodout"), "nodout"), []
     found = d3plot(folder / "d3plot")
-    return found, ["binout holds no nodout: the motion is that of d3plot, at its coarser times and of four bytes"]
+    times = [time for time, _ in found.states.values()]
+    interval = f", one state in {max(np.diff(times)):.3g}" if len(times) > 1 else ""
+    return found, [f"binout holds no nodout: the motion is that of d3plot{interval} of the deck's unit of time"]
 
 
 def d3plot(path) -> Records:

@@ -14,6 +14,10 @@ from ._run import _NAMES
 MESH = "mesh.inp"
 # wheel and rail by the labels of their faces
 SIDES = ("wheel", "rail")
+ONE_SIDED = (
+    "there are no forces of the wheel: its side of the contact is not judged",
+    "there are no forces of the rail: its side is not judged; patch and figures, which are the rail's, are empty",
+)
 # corners of the faces of a brick in their order around it
 OF_BRICK = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 UNITS = (
@@ -112,7 +116,7 @@ def written(out, contact, sides, motion) -> dict:
     times, counts = common(sides, motion, contact["begins"] / contact["units"][2])
     out.mkdir(parents=True, exist_ok=True)
     try:
-        lost, turned = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
+        lost, notes = write_contact(out / _NAMES["contact"], contact, nodes, sides, motion, times)
     except BaseException:
         (out / _NAMES["contact"]).unlink(missing_ok=True)
         raise
@@ -124,7 +128,7 @@ def written(out, contact, sides, motion) -> dict:
         "time": [begin, end],
         **counts,
         "without_projection": lost,
-        "notes": [f"the forces of {name} pull: they were taken as those on the other body" for name in turned],
+        "notes": notes,
     }
 
 
@@ -148,14 +152,15 @@ def common(sides, motion, begins):
 
 
 def write_contact(path, contact, nodes, sides, motion, times):
-    """Writes the history; returns how often a node with a force had no projection, and which sides were turned over."""
+    """Writes the history; returns how often a node with a force had no projection, and notes."""
     length, mass, second = contact["units"]
     points, areas = np.array(contact["points"])[nodes.kept], np.array(contact["areas"])[nodes.kept]
     turn_over = senses(nodes, points, sides, motion, times, length)
     writer = _creepage.ContactWriter(path, points, areas, nodes.faces.tolist(), nodes.face_body.tolist())
-    lost = 0
+    lost, loaded = 0, np.zeros(len(nodes.ids), bool)
     for time in times:
         force = mass * length / second**2 * forces(nodes, sides, motion, turn_over, time)
+        loaded |= force.any(axis=1)
         velocity, displacement = moving(nodes, motion, time)
         lost += writer.append(
             since(contact, motion, time),
@@ -163,7 +168,9 @@ def write_contact(path, contact, nodes, sides, motion, times):
             length / second * velocity.ravel(),
             length * displacement.ravel(),
         )
-    return lost, [side.name for side, turned in zip(sides, turn_over) if turned < 0]
+    pulling = [side.name for side, turned in zip(sides, turn_over) if turned < 0]
+    notes = [f"the forces of {name} pull: they were taken as those on the other body" for name in pulling]
+    return lost, notes + [ONE_SIDED[body] for body in range(2) if not loaded[nodes.body == body].any()]
 
 
 def moving(nodes, motion, time):
