@@ -2,7 +2,9 @@
 
 import json
 import re
-import shutil
+import runpy
+import sys
+from types import SimpleNamespace
 
 import creepage
 import numpy as np
@@ -10,11 +12,10 @@ import pytest
 from creepage import _foreign, _from_command
 
 import foreign
-from conftest import resolved
+from conftest import ROOT, resolved
 
 # what the digits of the files leave: of the largest traction, of the largest slip velocity
 EXACT, SIX = (1e-9, 1e-9), (2e-4, 2e-3)
-SETS = ("--wheel", "Tread", "--rail", "top".upper())
 LAW = ("--friction", "0.3", "--scale", "slip_speed=0.15556", "--scale", "dt=1e-7")
 
 
@@ -88,8 +89,7 @@ def test_med_files_of_code_aster_come_back_exactly(contact, tmp_path, capsys):
 def test_animation_files_of_openradioss_come_back_to_their_six_digits(there, contact, tmp_path, capsys):
     _, deck, begins = there
     foreign.openradioss(contact, deck, tmp_path, begins)
-    shutil.copy(deck, tmp_path)
-    document, found = imported("from-openradioss", tmp_path, "--out", tmp_path / "out", capsys=capsys)
+    document, found = imported("from-openradioss", tmp_path, "--deck", deck, "--out", tmp_path / "out", capsys=capsys)
     assert document["notes"] == ["case.toml is the case of the deck, as of import-k"]
     same(found, contact, np.argsort(foreign.binout.labels(contact.run, deck)), SIX)
 
@@ -136,3 +136,39 @@ def test_faces_look_outwards_whatever_the_order_of_the_corners():
     across = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     assert (np.sum(across * (corners.mean(axis=1) - (0.5, 0.5, 1)), axis=1) > 0).all()
     assert np.allclose(sum(_foreign.tributary(points, face[None]) for face in faces).sum(), 10)
+
+
+def test_the_script_for_abaqus_writes_the_tables(contact, tmp_path, capsys, monkeypatch):
+    """Against stand-ins for the objects of an output database, as Abaqus's reference describes them."""
+    count, bodies = len(contact.ids), contact.body[contact.faces[:, 0]]
+    every = np.vstack([contact.points, contact.inner])
+    nodes = [SimpleNamespace(label=n + 1, coordinates=x.astype("f4")) for n, x in enumerate(every)]
+    elements = [SimpleNamespace(instanceNames=["WHOLE"] * 8, connectivity=[n + 1 for n in brick]) for brick in contact.bricks]
+    surface = {
+        name: SimpleNamespace(elements=[[e for e, of in zip(elements, bodies) if of == body]], faces=[["FACE2"] * count])
+        for body, name in enumerate(("TREAD", "TOP"))
+    }
+
+    def field(values):
+        whole = SimpleNamespace(name="WHOLE")
+        return SimpleNamespace(
+            values=[SimpleNamespace(instance=whole, nodeLabel=n + 1, precision=2, dataDouble=x) for n, x in enumerate(values)]
+        )
+
+    frames = []
+    for record, time in enumerate(contact.times):
+        moved, velocity = contact.motion(record)
+        force = contact.force(record)
+        fields = {"U": moved, "V": velocity, "CNORMF   TREAD/TOP": force * (0, 0, 1), "CSHEARF  TREAD/TOP": force * (1, 1, 0)}
+        fields["CPRESS   TREAD/TOP"] = force
+        frames.append(SimpleNamespace(frameValue=time, fieldOutputs={name: field(rows) for name, rows in fields.items()}))
+    assembly = SimpleNamespace(instances={"WHOLE": SimpleNamespace(nodes=nodes)}, surfaces=surface)
+    odb = SimpleNamespace(steps={"roll": SimpleNamespace(totalTime=0.0, frames=frames)}, rootAssembly=assembly)
+    monkeypatch.setitem(sys.modules, "odbAccess", SimpleNamespace(openOdb=lambda path, readOnly: odb))
+    monkeypatch.setitem(sys.modules, "abaqusConstants", SimpleNamespace(DOUBLE_PRECISION=2))
+    monkeypatch.setattr(sys, "argv", ["abaqus.py", "job.odb", "TREAD", "TOP"])
+    monkeypatch.chdir(tmp_path)
+    runpy.run_path(str(ROOT / "crates" / "python" / "examples" / "abaqus.py"))
+    _, found = imported("from-tables", tmp_path, *LAW, "--out", tmp_path / "out", capsys=capsys)
+    # coordinates have four bytes
+    same(found, contact, np.arange(count), (1e-5, 1e-3))

@@ -36,13 +36,12 @@ class Format:
         return self.more is not None and self.more[0] == "--deck"
 
 
-DECK = ("--deck", "FILE.k", "the keyword file [default: the only one in FOLDER]")
 FORMATS = {
     "from-lsdyna": Format(
         "LS-DYNA",
         lambda given, options, _, scales: _lsdyna.imported(given.of, given.more, given.out, options, scales),
         ("FOLDER", "folder of the results"),
-        DECK,
+        ("--deck", "FILE.k", "the keyword file [default: the only one in FOLDER]"),
         """The folder holds binout with the databases ncforc and nodout (or d3plot), and the keyword file. They are read by
 lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.md.""",
     ),
@@ -50,7 +49,7 @@ lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.
         "OpenRadioss",
         lambda given, options, _, scales: _readers.openradioss(given.of, given.more, given.out, options, scales),
         ("FOLDER", "folder of the animation files, converted by anim_to_vtk"),
-        DECK,
+        ("--deck", "FILE.k", "the keyword file of export-k, unchanged"),
         "The animation files hold /ANIM/VECT/VEL and /ANIM/VECT/CONT: docs/two-codes.md.",
     ),
     "from-calculix": Format(
@@ -87,7 +86,7 @@ def parser(name) -> Parser:
     add("of", metavar=of.positional[0], help=of.positional[1])
     if of.more:
         option, metavar, help = of.more
-        add(option, metavar=metavar, help=help, dest="more", required=not of.by_deck)
+        add(option, metavar=metavar, help=help, dest="more", required=name != "from-lsdyna")
     if of.by_deck:
         add("--wheel", metavar="SET", type=int, help="number of the wheel's side on the card of the contact [default: "
             "the upper]")  # fmt: skip

@@ -9,7 +9,7 @@ import numpy as np
 from . import _mesh
 from ._errors import refuse
 from ._foreign import Records, between, case_of, fresh, normals, places, skin, written
-from ._lsdyna import of_deck, only_deck
+from ._lsdyna import of_deck
 from ._optional import optional
 from ._run import _NAMES
 
@@ -40,7 +40,7 @@ def openradioss(folder, deck, out, options, scales) -> dict:
             records.add(found["TIME"].item(), vectors)
         return [records], records
 
-    return of_deck(deck or only_deck(folder), out, options, scales, read)
+    return of_deck(deck, out, options, scales, read)
 
 
 def vtk(path) -> dict:
