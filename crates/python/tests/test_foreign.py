@@ -1,10 +1,10 @@
-"""Results of CalculiX, OpenRadioss, code_aster and of tables: a run that goes through their files comes back as it was."""
+"""Results of CalculiX, OpenRadioss, code_aster and of tables: a run comes back from their files as it was."""
 
 import json
 import re
 import runpy
 import sys
-from types import SimpleNamespace
+from types import SimpleNamespace as Object
 
 import creepage
 import numpy as np
@@ -113,7 +113,7 @@ def test_what_a_file_lacks_is_named(there, contact, tmp_path, capsys):
         (tables, values, lambda text: text.replace("force_z", "fz"), "no column force_z"),
         (tables, values, lambda text: text.rstrip().rsplit("\n", 1)[0], "other nodes at"),
         (radioss, vtk, lambda text: text.replace("Contact_Forces", "Forces"), "/ANIM/VECT/CONT"),
-        (radioss, vtk, lambda text: text[: len(text) // 2], "cut short at"),
+        (radioss, vtk, lambda text: text[: len(text) // 2], "cut short"),
         (("from-aster", tmp_path / "job.med", "--wheel", "A", "--rail", "TOP"), vtk, str, "no set A; it has: TOP, TREAD"),
         (("from-aster", frd, "--wheel", "A", "--rail", "TOP"), frd, str, "cannot be read"),
         ((*tables, "--friction", "a"), values, str, "STATIC,DYNAMIC,DECAY"),
@@ -142,30 +142,30 @@ def test_the_script_for_abaqus_writes_the_tables(contact, tmp_path, capsys, monk
     """Against stand-ins for the objects of an output database, as Abaqus's reference describes them."""
     count, bodies = len(contact.ids), contact.body[contact.faces[:, 0]]
     every = np.vstack([contact.points, contact.inner])
-    nodes = [SimpleNamespace(label=n + 1, coordinates=x.astype("f4")) for n, x in enumerate(every)]
-    elements = [SimpleNamespace(instanceNames=["WHOLE"] * 8, connectivity=[n + 1 for n in brick]) for brick in contact.bricks]
+    nodes = [Object(label=n + 1, coordinates=x.astype("f4")) for n, x in enumerate(every)]
+    elements = [Object(instanceNames=["WHOLE"] * 8, connectivity=[n + 1 for n in brick]) for brick in contact.bricks]
     surface = {
-        name: SimpleNamespace(elements=[[e for e, of in zip(elements, bodies) if of == body]], faces=[["FACE2"] * count])
+        name: Object(elements=[[e for e, of in zip(elements, bodies) if of == body]], faces=[["FACE2"] * count])
         for body, name in enumerate(("TREAD", "TOP"))
     }
 
     def field(values):
-        whole = SimpleNamespace(name="WHOLE")
-        return SimpleNamespace(
-            values=[SimpleNamespace(instance=whole, nodeLabel=n + 1, precision=2, dataDouble=x) for n, x in enumerate(values)]
+        whole = Object(name="WHOLE")
+        return Object(
+            values=[Object(instance=whole, nodeLabel=n + 1, precision=2, dataDouble=x) for n, x in enumerate(values)]
         )
 
     frames = []
     for record, time in enumerate(contact.times):
         moved, velocity = contact.motion(record)
         force = contact.force(record)
-        fields = {"U": moved, "V": velocity, "CNORMF   TREAD/TOP": force * (0, 0, 1), "CSHEARF  TREAD/TOP": force * (1, 1, 0)}
-        fields["CPRESS   TREAD/TOP"] = force
-        frames.append(SimpleNamespace(frameValue=time, fieldOutputs={name: field(rows) for name, rows in fields.items()}))
-    assembly = SimpleNamespace(instances={"WHOLE": SimpleNamespace(nodes=nodes)}, surfaces=surface)
-    odb = SimpleNamespace(steps={"roll": SimpleNamespace(totalTime=0.0, frames=frames)}, rootAssembly=assembly)
-    monkeypatch.setitem(sys.modules, "odbAccess", SimpleNamespace(openOdb=lambda path, readOnly: odb))
-    monkeypatch.setitem(sys.modules, "abaqusConstants", SimpleNamespace(DOUBLE_PRECISION=2))
+        fields = {"U": moved, "V": velocity, "CPRESS   TREAD/TOP": force}
+        fields |= {"CNORMF   TREAD/TOP": force * (0, 0, 1), "CSHEARF  TREAD/TOP": force * (1, 1, 0)}
+        frames.append(Object(frameValue=time, fieldOutputs={name: field(rows) for name, rows in fields.items()}))
+    assembly = Object(instances={"WHOLE": Object(nodes=nodes)}, surfaces=surface)
+    odb = Object(steps={"roll": Object(totalTime=0.0, frames=frames)}, rootAssembly=assembly)
+    monkeypatch.setitem(sys.modules, "odbAccess", Object(openOdb=lambda path, readOnly: odb))
+    monkeypatch.setitem(sys.modules, "abaqusConstants", Object(DOUBLE_PRECISION=2))
     monkeypatch.setattr(sys, "argv", ["abaqus.py", "job.odb", "TREAD", "TOP"])
     monkeypatch.chdir(tmp_path)
     runpy.run_path(str(ROOT / "crates" / "python" / "examples" / "abaqus.py"))

@@ -2,16 +2,31 @@
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
 
 from . import _mesh
-from ._errors import refuse
+from ._errors import CreepageError, refuse
 from ._foreign import Records, between, case_of, fresh, normals, places, skin, written
 from ._lsdyna import of_deck
 from ._optional import optional
 from ._run import _NAMES
+
+
+ANEW = "copy it again from where it is whole, or run it again"
+
+
+@contextmanager
+def whole(path):
+    """Refuses a file in which a reader finds something else than it must hold."""
+    try:
+        yield
+    except CreepageError:
+        raise
+    except (OSError, KeyError, IndexError, ValueError, StopIteration) as problem:
+        refuse(f"{path} cannot be read, is damaged or cut short: {problem or type(problem).__name__}", ANEW)
 
 
 def openradioss(folder, deck, out, options, scales) -> dict:
@@ -27,7 +42,7 @@ def openradioss(folder, deck, out, options, scales) -> dict:
         records = None
         for path in files:
             found = vtk(path)
-            missing = [name for name in ("TIME", "NODE_ID", "POINTS", "Velocity", "Contact_Forces") if name not in found]
+            missing = [name for name in OF_VTK if name not in found]
             if missing:
                 refuse(f"{path} holds no {missing[0]}", "ask the engine for /ANIM/VECT/VEL and /ANIM/VECT/CONT")
             known, rows = places(found["NODE_ID"][:, 0].astype(int), ids)
@@ -43,10 +58,13 @@ def openradioss(folder, deck, out, options, scales) -> dict:
     return of_deck(deck, out, options, scales, read)
 
 
+OF_VTK = ("TIME", "NODE_ID", "POINTS", "Velocity", "Contact_Forces")
+
+
 def vtk(path) -> dict:
     """Time, points and the fields over nodes of a legacy file of text."""
     found, count = {}, 0
-    with open(path, encoding="utf-8") as file:
+    with open(path, encoding="utf-8") as file, whole(path):
         for line in file:
             kind, name = (*line.split(), "", "")[:2]
             if kind == "POINTS":
@@ -54,34 +72,32 @@ def vtk(path) -> dict:
             elif kind == "TIME":
                 name = kind
             elif kind == "SCALARS" and name == "NODE_ID":
-                next(file, "")  # the name of its table of colours
+                next(file)  # the name of its table of colours
             elif kind != "VECTORS":
                 continue
-            try:
-                found[name] = np.loadtxt(file, ndmin=2, max_rows=1 if kind == "TIME" else count)
-                cut = len(found[name]) < (1 if kind == "TIME" else count)
-            except ValueError:
-                cut = True
-            if cut:
-                refuse(f"{path} is damaged or cut short at {name}", ANEW)
+            rows = 1 if kind == "TIME" else count
+            found[name] = np.loadtxt(file, ndmin=2, max_rows=rows)
+            if len(found[name]) < rows:
+                refuse(f"{path} is cut short at {name}", ANEW)
     return found
 
 
 def calculix(file, inp, out, options, friction, scales) -> dict:
     """A run of CalculiX, from the displacements, velocities and contact stresses of its ``.frd``."""
     out = fresh(out)
-    ids, points, bricks, states = frd(file)
+    with whole(file):
+        ids, points, bricks, states = frd(file)
     sets = node_sets(inp)
     chosen = [np.isin(ids, sets[one_of(sets, options[side], inp)]) for side in ("wheel", "rail")]
     contact = between(ids, points, [skin(points, bricks, side) for side in chosen], options["unit"])
     length = contact["units"][0]
     faces = np.concatenate(contact["faces"])
-    records = Records(Path(file).name, contact["nodes"])
+    records, rows = Records(Path(file).name, contact["nodes"]), places(ids, contact["nodes"])[1]
     for time, blocks in states.items():
         for name, card in OF_FRD.items():
             if name not in blocks:
                 refuse(f"{file} holds no {name} at {time:g}", f"write {card}, and run it again")
-        moved, velocity, stress = (blocks[name][places(ids, contact["nodes"])[1]] for name in OF_FRD)
+        moved, velocity, stress = (blocks[name][rows] for name in OF_FRD)
         normal = normals(contact["points"] + length * moved, faces)
         area = contact["areas"][:, None] / length**2
         records.add(time, {"displacement": moved, "velocity": velocity, "force": area * traction(normal, stress)})
@@ -98,12 +114,12 @@ OF_FRD = {
 
 def traction(normal, stress):
     """The traction on the dependent surface from CPRESS, CSHEAR1 and CSHEAR2. The first tangent is the projection of the
-    x-axis, or of the z-axis where x is nearly normal, and the second is the master's normal times it (CalculiX's manual,
-    ``*CONTACT FILE``); shear is along the slip of the dependent surface, and so opposite to what acts on it."""
+    x-axis, or of the z-axis where x is nearly normal, and the second is the independent surface's normal times it (its
+    manual, ``*CONTACT FILE``); shear is along the slip of the dependent surface, and so opposite to what acts on it."""
     along = np.where(np.abs(normal[:, :1]) > 1 - 1e-10, [[0.0, 0.0, 1.0]], [[1.0, 0.0, 0.0]])
     first = along - np.sum(along * normal, axis=1)[:, None] * normal
     first /= np.linalg.norm(first, axis=1)[:, None]
-    # the master's normal is opposite
+    # the other surface's normal is opposite
     second = np.cross(-normal, first)
     _, _, _, pressure, shear, across = (column[:, None] for column in stress.T)
     return -(pressure * normal + shear * first + across * second)
@@ -116,7 +132,7 @@ def frd(path):
         for line in lines:
             kind = line[:6].strip()
             if kind in ("2C", "3C", "100C") and line.split()[-1] != "1":
-                refuse(f"{path} is no .frd of text", "write *NODE FILE and *CONTACT FILE, not OUTPUT")
+                refuse(f"{path} is no .frd of text in the long format", "write *NODE FILE and *CONTACT FILE, not OUTPUT")
             if kind == "2C":
                 ids, points = rows_of(path, lines)
             elif kind == "3C":
@@ -131,25 +147,22 @@ def frd(path):
                 states.setdefault(time, {})[line[5:13].strip()] = whole
     if not states:
         refuse(f"{path} holds no results", f"write {OF_FRD['VELO']}, and {OF_FRD['CONTACT']}")
-    return ids, points, np.searchsorted(ids, bricks), states
+    known, corners = places(ids, bricks.ravel())
+    if not known.all():
+        raise IndexError(f"no node {bricks.ravel()[~known][0]}")
+    return ids, points, corners.reshape(-1, 8), states
 
 
 def rows_of(path, lines):
     """The numbers and the values of a block of a ``.frd``: columns of 12 after 13."""
     numbers, values = [], []
-    try:
-        for line in lines:
-            if line.startswith(" -3"):
-                return np.array(numbers), np.array(values)
-            if line.startswith(" -1"):
-                numbers.append(int(line[3:13]))
-                values.append([float(line[at : at + 12]) for at in range(13, len(line.rstrip()), 12)])
-    except ValueError as problem:
-        refuse(f"{path} is damaged: {problem}", ANEW)
+    for line in lines:
+        if line.startswith(" -3"):
+            return np.array(numbers), np.array(values)
+        if line.startswith(" -1"):
+            numbers.append(int(line[3:13]))
+            values.append([float(line[at : at + 12]) for at in range(13, len(line.rstrip()), 12)])
     refuse(f"{path} is cut short", ANEW)
-
-
-ANEW = "copy it again from where it is whole, or run it again"
 
 
 def bricks_of(lines):
@@ -168,15 +181,13 @@ def bricks_of(lines):
 def node_sets(inp) -> dict:
     """The sets of nodes of an input file of Abaqus or CalculiX: numbers by names in capitals."""
     sets, here = {}, None
-    try:
+    with whole(inp):
         for line in _mesh.with_whole_sets(_mesh.lines_of(Path(inp))).splitlines():
             keyword, given = _mesh.parameters(line)
             if keyword is not None:
                 here = sets.setdefault(given["NSET"].upper(), []) if keyword == "NSET" else None
             elif here is not None:
                 here.extend(map(int, line.split(",")))
-    except (KeyError, ValueError) as problem:
-        refuse(f"{inp} has a set that cannot be read: {problem}")
     return sets
 
 
@@ -192,11 +203,7 @@ def one_of(sets, name, path):
 def aster(file, out, options, friction, scales) -> dict:
     """A run of code_aster, from the mesh and the fields DEPL, VITE and CONT_NOEU of its MED file."""
     out, h5py = fresh(out), optional("h5py", "mesh")
-    try:
-        med = h5py.File(file)
-    except OSError as problem:
-        refuse(f"{file} cannot be read: {problem}")
-    with med:
+    with whole(file), h5py.File(file) as med:
         points, bricks, groups = med_mesh(med)
         chosen = [groups[one_of(groups, options[side], file)] for side in ("wheel", "rail")]
         faces = [skin(points, bricks, side) for side in chosen]
@@ -275,13 +282,13 @@ def tables(folder, out, options, friction, scales) -> dict:
     corners = corners.reshape(-1, 4)
     sides = [corners[faces[:, 4] == body] for body in (0, 1)]
     contact = between(nodes[:, 0].astype(int), nodes[:, 1:], sides, options["unit"])
-    times, starts = np.unique(values[:, 0], return_index=True)
-    states = np.split(values, np.sort(starts)[1:])
+    values = values[np.lexsort((values[:, 1], values[:, 0]))]
+    states = np.split(values, np.flatnonzero(np.diff(values[:, 0])) + 1)
     records = Records("values.csv", np.unique(states[0][:, 1]))
     for state in states:
-        state = state[np.argsort(state[:, 1])]
         if len(state) != len(records.ids) or not np.array_equal(state[:, 1], records.ids):
-            refuse(f"values.csv has other nodes at {state[0, 0]:g} than at {states[0][0, 0]:g}", "write all at each time")
+            times = f"{state[0, 0]:g} than at {states[0][0, 0]:g}"
+            refuse(f"values.csv has other nodes at {times}", "write all nodes at each time")
         force, velocity, moved = (state[:, at : at + 3] for at in (2, 5, 8))
         records.add(state[0, 0], {"displacement": moved, "velocity": velocity, "force": force})
     return of_mesh(out, contact, [records], friction, scales)
@@ -289,15 +296,12 @@ def tables(folder, out, options, friction, scales) -> dict:
 
 def table(path, columns):
     """Columns of a csv with a head."""
-    with open(path, encoding="utf-8") as file:
+    with open(path, encoding="utf-8") as file, whole(path):
         head = [word.strip() for word in file.readline().split(",")]
         missing = [name for name in columns if name not in head]
         if missing:
             refuse(f"{path} has no column {missing[0]}; it has: {', '.join(head)}")
-        try:
-            return np.loadtxt(file, delimiter=",", ndmin=2, usecols=[head.index(name) for name in columns])
-        except ValueError as problem:
-            refuse(f"{path}: {problem}")
+        return np.loadtxt(file, delimiter=",", ndmin=2, usecols=[head.index(name) for name in columns])
 
 
 def of_mesh(out, contact, sides, friction, scales) -> dict:
