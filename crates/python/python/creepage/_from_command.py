@@ -21,13 +21,15 @@ class Format:
         read: from the words of the command, options, friction and scales to what ``--json`` prints.
         positional: name and help of what is read.
         more: another option with its name and help: the keyword file or the file of the sets.
-        epilog: examples, and what the other program must record.
+        example: words of an example.
+        epilog: what the other program must record.
     """
 
     program: str
     read: Callable
     positional: tuple[str, str]
     more: tuple[str, str, str] | None
+    example: str
     epilog: str
 
     @property
@@ -42,6 +44,7 @@ FORMATS = {
         lambda given, options, _, scales: _lsdyna.imported(given.of, given.more, given.out, options, scales),
         ("FOLDER", "folder of the results"),
         ("--deck", "FILE.k", "the keyword file [default: the only one in FOLDER]"),
+        "results",
         """The folder holds binout with the databases ncforc and nodout (or d3plot), and the keyword file. They are read by
 lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.md.""",
     ),
@@ -50,6 +53,7 @@ lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.
         lambda given, options, _, scales: _readers.openradioss(given.of, given.more, given.out, options, scales),
         ("FOLDER", "folder of the animation files, converted by anim_to_vtk"),
         ("--deck", "FILE.k", "the keyword file of export-k, unchanged"),
+        "results --deck deck.k",
         "The animation files hold /ANIM/VECT/VEL and /ANIM/VECT/CONT: docs/two-codes.md.",
     ),
     "from-calculix": Format(
@@ -57,6 +61,7 @@ lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.
         lambda given, *rest: _readers.calculix(given.of, given.more, given.out, *rest),
         ("JOB.frd", "the results, as text"),
         ("--sets", "JOB.inp", "the input file, which has the sets of nodes"),
+        "job.frd --sets job.inp --wheel TREAD --rail TOP --friction 0.3",
         "*NODE FILE writes U and V, *CONTACT FILE writes CDIS and CSTR: docs/two-codes.md.",
     ),
     "from-aster": Format(
@@ -64,13 +69,15 @@ lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.
         lambda given, *rest: _readers.aster(given.of, given.out, *rest),
         ("FILE.med", "the results, with their mesh"),
         None,
+        "job.med --wheel TREAD --rail TOP --friction 0.3",
         "It is read by h5py: pip install 'creepage[mesh]'. What it holds: docs/two-codes.md.",
     ),
     "from-tables": Format(
-        "any program, as tables,",
+        "any program's",
         lambda given, *rest: _readers.tables(given.of, given.out, *rest),
         ("FOLDER", "folder of nodes.csv, faces.csv and values.csv"),
         None,
+        "results --friction 0.3",
         "The columns, and a script that writes them from Abaqus: docs/two-codes.md.",
     ),
 }
@@ -79,8 +86,8 @@ lasso-python: pip install 'creepage[lsdyna]'. What the deck needs: docs/ls-dyna.
 def parser(name) -> Parser:
     """The options of a command."""
     of = FORMATS[name]
-    about = f"Bring the contact of results of {of.program} into the layout of a run, for check, plot, report and compare"
-    examples = f"examples:\n  creepage {name} {of.positional[0]} --out runs/theirs\n  creepage check runs/theirs\n\n"
+    about = f"Bring the contact of {of.program} results into the layout of a run, for check, plot, report and compare"
+    examples = f"examples:\n  creepage {name} {of.example} --out runs/theirs\n  creepage check runs/theirs\n\n"
     made = Parser(f"creepage {name}", description=about, epilog=examples + of.epilog, allow_abbrev=False)
     add = made.add_argument
     add("of", metavar=of.positional[0], help=of.positional[1])
