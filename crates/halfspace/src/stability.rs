@@ -28,8 +28,9 @@ const CELLS: usize = 40;
 pub struct LineRolling {
     /// Shear modulus `G* = G/(1 - nu)` (Pa).
     pub modulus: f64,
-    /// Half length a of the patch (m), and pressure p_0 at its centre (Pa).
+    /// Half length a of the patch (m).
     pub half_length: f64,
+    /// Pressure p_0 at its centre (Pa).
     pub pressure: f64,
     /// Length l of the zone of slip (m), at most 2 a.
     pub slip_length: f64,

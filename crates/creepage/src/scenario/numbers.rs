@@ -109,12 +109,13 @@ impl DimensionlessNumbers {
     /// The line of the log; none for a law that does not fall.
     pub fn line(&self) -> Option<String> {
         let f = self.falling?;
-        let mut line =
-            format!("falling friction at {} MPa: R {}", three(self.at.pressure * 1e-6), three(f.r));
-        if let Some(n1) = self.n1 {
-            line += &format!(", N1 {}", three(n1));
+        let mut line = format!("falling friction at {} MPa", three(self.at.pressure * 1e-6));
+        for (name, value) in [("R", Some(f.r)), ("N1", self.n1), ("N2", Some(f.n2))] {
+            // half-spaces have no surface layer, and without inertia no impedance
+            if let Some(value) = value.filter(|value| value.is_finite()) {
+                line += &format!(", {name} {}", three(value));
+            }
         }
-        line += &format!(", N2 {}", three(f.n2));
         if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
             line += &format!(
                 ", f_min/p {least:.4}, s_m {} m/s, jump to {} m/s",
