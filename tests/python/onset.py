@@ -26,7 +26,7 @@ def lines(sweep):
     """The runs by their other parameters: distances (m), shares, and the numbers of the first run."""
     runs = json.loads((sweep / "sweep.json").read_text())["runs"]
     groups = {}
-    for run in runs:
+    for run in (run for run in runs if run["status"] == "completed"):
         others = tuple((key, value) for key, value in run["parameters"].items() if key != MEMORY)
         share = run["check"]["slip_zone"]["fluctuating_share"]["value"]
         numbers = run["summary"]["numbers"]
@@ -52,7 +52,7 @@ def main(sweep, picture, table):
     nominal = {key: max({p[key] for p, *_ in found}, key=[p[key] for p, *_ in found].count) for key in keys}
     figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), sharey=True)
     rows = []
-    colours = plt.get_cmap("viridis")(np.linspace(0, 0.95, len(found)))
+    colours = plt.get_cmap("tab20").colors
     for (parameters, distance, share, numbers), colour, marker in zip(found, colours, MARKERS):
         changed = [f"{key} = {value:g}" for key, value in parameters.items() if value != nominal[key]]
         label = ", ".join(changed) or "the reference"
