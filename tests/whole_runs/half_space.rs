@@ -77,7 +77,9 @@ fn half_spaces_expect_of_falling_friction_what_elements_do_but_for_the_layer_tha
     ];
     let [elements, half_spaces, slow] =
         [small(&law), rolled(&law), rolled(&[&law[..], &["half_space.inertia=false"]].concat())];
-    for key in ["pressure", "impedance", "r", "slip_length", "nucleation_length", "gamma"] {
+    for key in
+        ["pressure", "impedance", "r", "slip_length", "nucleation_length", "gamma", "stable_memory"]
+    {
         let at = format!("/numbers/{key}");
         let [one, other] = [&elements, &half_spaces].map(|run| run.number(&at));
         assert!((other / one - 1.0).abs() < 1e-12, "{key}: {one} {other}");
@@ -86,6 +88,27 @@ fn half_spaces_expect_of_falling_friction_what_elements_do_but_for_the_layer_tha
     assert!(at["n1"].is_null() && at["n2"].is_null(), "there is no layer of elements: {at}");
     assert!(without["r"].is_null(), "without waves there is no impedance: {without}");
     assert_eq!(without["gamma"], at["gamma"]);
+}
+
+#[test]
+fn slip_in_line_contact_bursts_with_less_memory_than_rolling_needs_to_be_stable_and_not_with_more()
+{
+    let path = runs::project("cases/half-space/line-falling.toml");
+    let rolled = |distance: f64| {
+        let memory = format!("friction.memory.distance={distance}");
+        let case = runs::load(&path, &["mesh.zone.size=0.5e-3", "mesh.window=0.03", &memory]);
+        let results = run(&case, 1);
+        let records = results.contact("slip_velocity");
+        let last = records[3 * records.len() / 4..].iter();
+        let largest = last.flat_map(|slip| slip.chunks(3)).map(length).fold(0.0, f64::max);
+        (results.number("/numbers/stable_memory"), largest)
+    };
+    let (stable, bursts) = rolled(3e-6);
+    let (same, steady) = rolled(7e-6);
+    assert_eq!(stable, same);
+    assert!(stable > 4.5e-6 && stable < 5.2e-6, "{stable}");
+    // with constant friction slip is 0.43 m/s at the rear end
+    assert!(bursts > 0.8 && steady < 0.45, "{bursts} {steady}");
 }
 
 #[test]

@@ -1,9 +1,13 @@
-//! The compliance of half-spaces in time and space: single modes, Lamb's problem of a line, the static tail of a point.
+//! The compliance of half-spaces in time and space: single modes, Lamb's problem of a line, the static tail of a point,
+//! and the growth of a disturbance of sliding with friction that falls and remembers.
 
 use crate::body::STEEL;
 use crate::convergence::Convergence;
+use crate::dispersion::{Mode, Sliding};
+use crate::perturbation_growth::prony;
 use crate::problem::{Outcome, Size};
 use crate::row::Row;
+use friction::{Exponential, FrictionLaw, Memory};
 use halfspace::{Extent, HalfSpaces, Kernel, Quadrature};
 use nalgebra::Complex;
 
@@ -18,6 +22,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     let mut rows = mode(size);
     rows.extend(line(size)?);
     rows.extend(point(size)?);
+    rows.extend(growth(size)?);
     Ok(rows)
 }
 
@@ -50,6 +55,70 @@ fn mode(size: Size) -> Vec<Row> {
             Row::extrapolated(&quantity, libm::j0(t), &at(t), (0.0, ""), source)
         })
         .into()
+}
+
+/// Sliding at 0.4 m/s under 0.9 GPa with the law of the reference case: memory (m) and wavelength (m).
+const DISTURBANCES: [[f64; 2]; 4] = [[1e-6, 30e-3], [2e-6, 30e-3], [3e-6, 60e-3], [5e-6, 60e-3]];
+const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+const SPEED: f64 = 0.4;
+const PRESSURE: f64 = 0.9e9;
+
+/// Growth of a mode between the half-spaces, beside the root of its dispersion equation.
+fn growth(size: Size) -> Outcome {
+    let steps: &[f64] = if size == Size::Quick { &[0.02, 0.01] } else { &[0.02, 0.01, 0.005] };
+    let falling = -PRESSURE * LAW.slope(SPEED);
+    let mut rows = Vec::new();
+    for (mode, name) in [(Mode::InPlane, "plane strain"), (Mode::Antiplane, "antiplane")] {
+        for [distance, wavelength] in DISTURBANCES {
+            let sliding = Sliding { bodies: steel(), mode, falling, delay: distance / SPEED };
+            let k = 2.0 * std::f64::consts::PI / wavelength;
+            let root = sliding.growth(k).ok_or("no mode grows")?;
+            let found = steps.iter().map(|step| {
+                let dt = step / root.norm();
+                let history = marched(&sliding, k, distance, dt);
+                let settled = &history[2 * history.len() / 3..];
+                (dt, prony(settled, root, dt).re)
+            });
+            let study = Convergence::by_theory(found, 1.0);
+            let quantity = format!(
+                "{name}, memory {} um, wavelength {} mm: growth rate (1/s)",
+                1e6 * distance,
+                1e3 * wavelength
+            );
+            let source = "linear stability of sliding between half-spaces (dispersion.rs)";
+            rows.push(Row::extrapolated(&quantity, root.re, &study, (0.0, ""), source));
+        }
+    }
+    Ok(rows)
+}
+
+/// Slip speeds (m/s) of a disturbance with the wave number `k` (1/m) after a change of friction, every `dt` (s), by
+/// the steps of the law with the memory `distance` (m) and the convolution of the half-spaces.
+fn marched(sliding: &Sliding, k: f64, distance: f64, dt: f64) -> Vec<f64> {
+    // so many of the root's own times that the fastest mode alone is left
+    let steps = (30.0 / (dt * sliding.growth(k).map_or(1.0, |q| q.norm()))) as usize;
+    let quadrature = Quadrature::new(steps, dt);
+    let transform = quadrature.frequencies().iter().map(|&s| sliding.compliance(k, s));
+    let weights = quadrature.weights(transform.collect());
+    let memory = Memory { distance, floor: 0.5 * SPEED };
+    let (mut slip, mut shear, mut speeds) = ([0.0; 2], Vec::new(), Vec::new());
+    // the change of friction (Pa)
+    let mut friction = 1.0;
+    for _ in 0..steps {
+        let past: f64 = shear.iter().rev().zip(&weights[1..]).map(|(t, w)| t * w).sum();
+        // friction at the end of a step is linear in the slip speed of the step, and the reverse
+        let speed = |friction: f64| {
+            (3.0 * (past - weights[0] * friction) - 4.0 * slip[0] + slip[1]) / (2.0 * dt)
+        };
+        let after = |speed: f64| memory.advance(friction, -sliding.falling * speed, SPEED, dt);
+        let rate = (speed(1.0) - speed(0.0)) * (after(1.0) - after(0.0));
+        let change = speed(after(0.0)) / (1.0 - rate);
+        friction = after(change);
+        shear.push(-friction);
+        slip = [past - weights[0] * friction, slip[0]];
+        speeds.push(change);
+    }
+    speeds
 }
 
 /// Spacings (m) of the grids.

@@ -19,13 +19,14 @@
 
 use crate::body::{SHEARED, at_rest, contact_material};
 use crate::convergence::Convergence;
-use crate::dispersion::Sliding;
+use crate::dispersion::{self, Sliding};
 use crate::problem::{Cause, Outcome, Size};
 use crate::row::Row;
 use contact::{ExactContact, ExactSettings};
 use dynamics::{Fixed, Setup, Simulation};
 use faer::c64 as Complex;
 use friction::{Exponential, FrictionLaw, Memory, NodeConditions, NodeFriction, Remembering};
+use halfspace::HalfSpaces;
 use mesh::Padded;
 use nalgebra::Vector3;
 use solid::{Level, Solid, Viscosity, Volumetric};
@@ -120,8 +121,8 @@ struct Mode {
 impl Mode {
     fn new(speed: f64, distance: f64, wavelength: f64) -> Result<Self, Cause> {
         let sliding = Sliding {
-            wave_speed: SHEARED.c_s(),
-            impedance: 0.5 * SHEARED.density * SHEARED.c_s(),
+            bodies: HalfSpaces::new(SHEARED.young, SHEARED.poisson, SHEARED.density),
+            mode: dispersion::Mode::Antiplane,
             falling: -PRESSURE * LAW.slope(speed),
             delay: distance / speed,
         };
@@ -314,7 +315,7 @@ fn slope(values: &[f64], dt: f64) -> f64 {
 /// The q (1/s) of the `Re(A exp(q t))` nearest to `values`, one every `dt` (s). With `e = exp(q m dt)` three values m
 /// steps apart obey `A_2 - 2 Re(e) A_1 + |e|^2 A_0 = 0`, here in the sense of least squares; m steps are about 1/|q| of
 /// the `expected` root.
-fn prony(values: &[f64], expected: Complex, dt: f64) -> Complex {
+pub(crate) fn prony(values: &[f64], expected: Complex, dt: f64) -> Complex {
     let m = (1.0 / (expected.norm() * dt)).ceil() as usize;
     // the normal equations of the rows (2 A_1, -A_0) with the right-hand sides A_2
     let ([mut xx, mut xy, mut yy], [mut xr, mut yr]) = ([0.0; 3], [0.0; 2]);

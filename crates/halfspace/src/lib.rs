@@ -36,6 +36,7 @@ mod plane;
 mod quadrature;
 mod return_mapping;
 mod rolling;
+mod stability;
 mod steady;
 mod subsurface;
 mod tangential;
@@ -50,5 +51,6 @@ pub use rolling::{
     Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,
     StepSums,
 };
+pub use stability::LineRolling;
 pub use steady::{SteadyError, SteadyRolling, steady};
 pub use subsurface::{LoadedCell, plane_stress_below, stress_below};

@@ -316,6 +316,7 @@ section! {
         slip_length: Option<f64> = "l_slip, length of the zone of slip by Carter's theory" ["m"],
         nucleation_length: Option<f64> = "h_n, nucleation length of friction with memory" ["m"],
         gamma: Option<f64> = "Gamma = l_slip/h_n" ["1"],
+        stable_memory: Option<f64> = "memory of friction from which steady rolling is stable" ["m"],
         expect: Option<String> = "what to expect of the run, where there is reason for a warning",
     }
 }

@@ -3,39 +3,22 @@
 import json
 import re
 import shutil
-import subprocess
 import sys
 
 import creepage
 import h5py
 import numpy as np
 import pytest
-from creepage import _lsdyna_command
+from creepage import _from_command, _lsdyna
 
 import binout
-from conftest import SMALL
+import foreign
+from conftest import RECORDED, computed, resolved, values
 
 pytest.importorskip("lasso.dyna.lsda_py3")
-KEYS = {"time.roll": 2e-3, "output.contact_interval": 2e-6}
 # the first record is that of the preload: it has no shear, which digits cannot tell from a little
 ROLLING = (1e-6, 1.0)
 SECOND = 3
-
-
-@pytest.fixture(scope="module")
-def there(tmp_path_factory):
-    """A run, and the folder in which LS-DYNA would have computed it: its deck, and when it rolls there."""
-    return computed(tmp_path_factory.mktemp("lsdyna"), KEYS)
-
-
-def computed(folder, keys):
-    run = creepage.run(SMALL, folder / "run", threads=1, **keys)
-    sets = [word for key, value in keys.items() for word in ("--set", f"{key}={json.dumps(value)}")]
-    deck = folder / "there" / "deck.k"
-    deck.parent.mkdir()
-    subprocess.run([sys.executable, "-m", "creepage", "export-k", SMALL, *sets, "--out", deck, "-q"], check=True)
-    begins = re.search(r"START_TIME\n\$.*\n *(\S+)", deck.read_text())
-    return run, deck, float(begins[1])
 
 
 @pytest.fixture(scope="module")
@@ -48,25 +31,6 @@ def imported(there):
 def order_of(there):
     """The nodes of the run in the order of their numbers in the deck."""
     return np.argsort(binout.labels(*there[:2]))
-
-
-def resolved(run, record):
-    """Pressure and shear of the run along the normals of its nodes, of which forces of nodes alone know."""
-    pressure, shear = (run.contact[name][record] for name in ("pressure", "shear"))
-    normal = binout.normals(run, run.contact["displacement"][record])
-    along = np.sum(shear * normal, axis=1)
-    return pressure - along, shear - along[:, None] * normal
-
-
-def values(check):
-    """Every measure by its name, the part of the interface and the pairing."""
-    found = {}
-    for name, metric in check["metrics"].items():
-        for side, parts in (metric.get("sides") or {}).items():
-            if isinstance(parts, dict):
-                of = {None: parts} if "value" in parts else parts
-                found |= {(name, side, at): part["value"] for at, part in of.items() if isinstance(part, dict)}
-    return found
 
 
 def test_tractions_and_motion_come_back_to_the_digits_of_the_deck(there, imported):
@@ -127,7 +91,7 @@ def test_other_files_orders_and_missing_states_change_nothing_else(there, import
     binout.write(run, deck, tmp_path, begins=begins, order=order, files=3, skip=[7])
     assert sorted(path.name for path in tmp_path.iterdir()) == ["binout0000", "binout0000%001", "binout0000%002"]
     out = tmp_path / "out"
-    document = _lsdyna_command.imported(tmp_path, deck, out, {"unit": "mm-ton-s"}, {})
+    document = _lsdyna.imported(tmp_path, deck, out, {"unit": "mm-ton-s"}, {})
     assert (document["unmatched"], document["records"]) == (1, len(run.contact.times) - 1)
     kept = np.delete(np.arange(len(run.contact.times)), 7)
     found = creepage.Run(out).contact
@@ -140,13 +104,13 @@ def test_other_files_orders_and_missing_states_change_nothing_else(there, import
 def test_forces_on_the_other_body_are_turned_over(there, imported, tmp_path):
     run, deck, begins = there
     binout.write(run, deck, tmp_path, begins=begins, turned=["master_1"])
-    document = _lsdyna_command.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    document = _lsdyna.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
     assert document["notes"][1:] == ["the forces of ncforc/master_1 pull: they were taken as those on the other body"]
     assert np.array_equal(creepage.Run(tmp_path / "out").contact["shear"][:], imported.contact["shear"][:])
 
 
 def test_half_a_model_becomes_the_whole(tmp_path):
-    run, deck, begins = computed(tmp_path, {**KEYS, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
+    run, deck, begins = computed(tmp_path, {**RECORDED, "mesh.symmetry": "half", "output.contact_interval": 5e-6})
     binout.write(run, deck, deck.parent, begins=begins)
     whole = creepage.from_lsdyna(deck.parent, out=tmp_path / "imported").contact
     assert len(whole.points) == len(run.contact.points)
@@ -175,9 +139,37 @@ def test_numbers_of_four_bytes_keep_their_digits(there, imported, tmp_path):
     assert mine == pytest.approx(theirs, rel=1e-3)
 
 
+def test_d3plot_stands_in_for_nodout_at_its_own_times_and_digits(there, imported, tmp_path):
+    run, deck, begins = there
+    binout.write(run, deck, tmp_path, begins=begins, without=["nodout"])
+    foreign.d3plot(run, deck, tmp_path, begins, every=5)
+    document = _lsdyna.imported(tmp_path, deck, tmp_path / "out", {"unit": "mm-ton-s"}, {})
+    kept = np.arange(0, len(run.contact.times), 5)
+    assert (document["records"], document["unmatched"]) == (len(kept), len(run.contact.times) - len(kept))
+    interval = np.diff(run.contact.times[kept]).max()
+    assert f"one state in {interval:.3g} of" in document["notes"][0]
+    found = creepage.Run(tmp_path / "out").contact
+    # 16 mm in four bytes leave 2e-6 mm, over faces of 0.8 mm
+    for name, close in [("pressure", 1e-5), ("shear", 1e-5), ("velocity", 1e-7)]:
+        off = np.abs(found[name][:] - imported.contact[name][:][kept]).max()
+        assert 0 < off < close * np.abs(imported.contact[name][:]).max(), name
+
+
+def test_without_contact_forces_nothing_is_judged(there, capsys, tmp_path):
+    run, deck, begins = there
+    foreign.d3plot(run, deck, tmp_path, begins)
+    (tmp_path / "intfor").write_bytes(b"")
+    line = " ".join(refused(capsys, tmp_path, "--deck", deck, "--out", tmp_path / "out").split())
+    for said in ["no binout; d3plot has no contact forces", "intfor cannot be read by lasso-python", "DATABASE_NCFORC"]:
+        assert said in line, line
+    binout.write(run, deck, tmp_path, begins=begins, without=["nodout"])
+    (tmp_path / "d3plot").write_bytes((tmp_path / "d3plot").read_bytes()[:1000])
+    assert "d3plot is damaged" in refused(capsys, tmp_path, "--deck", deck, "--out", tmp_path / "out")
+
+
 def refused(capsys, *words):
     """What the command says on standard error where it ends with 2."""
-    assert _lsdyna_command.main([str(word) for word in words]) == 2
+    assert _from_command.main(["from-lsdyna", *map(str, words)]) == 2
     return capsys.readouterr().err
 
 
@@ -223,7 +215,7 @@ def test_the_contact_of_any_model_is_judged_by_its_own_friction(there, imported,
     (tmp_path / "other.k").write_text(re.sub(r"(\*CONTACT_AUTOMATIC_SURFACE_TO_SURFACE)\n", r"\1_ID\n1\n", other))
     out = tmp_path / "out"
     words = [deck.parent, "--deck", tmp_path / "other.k", "--wheel", 11, "--scale", "slip_speed=0.15556", "--out", out]
-    assert _lsdyna_command.main([*map(str, words), "--json"]) == 0
+    assert _from_command.main(["from-lsdyna", *map(str, words), "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
     assert "MAT_PLASTIC_KINEMATIC" in document["notes"][0] and document["records"] == len(imported.contact.times)
     found = creepage.Run(out)

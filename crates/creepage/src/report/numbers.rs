@@ -8,7 +8,7 @@ use std::fmt::Write;
 /// A number, its label and its meaning.
 type Meaning = (fn(&Numbers) -> Option<f64>, &'static str, &'static str);
 
-const MEANINGS: [Meaning; 8] = [
+const MEANINGS: [Meaning; 9] = [
     (
         |n| n.r,
         "R = p0 k \u{394}\u{3bc}/Z",
@@ -51,7 +51,12 @@ const MEANINGS: [Meaning; 8] = [
     (
         |n| n.gamma,
         "\u{393} = l_slip/h_n",
-        "zone of slip, by Carter, over the nucleation length; above 1 slip may oscillate by itself",
+        "zone of slip, by Carter, over the nucleation length; below 1 slip cannot run away",
+    ),
+    (
+        |n| n.stable_memory,
+        "stable d_c (m)",
+        "memory of friction from which steady rolling in line contact is stable; with a shorter one slip fluctuates",
     ),
 ];
 

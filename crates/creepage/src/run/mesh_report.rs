@@ -9,6 +9,8 @@ use crate::run::error::RunError;
 use crate::run::folder::default_folder;
 use crate::run::mesh_file::write_mesh;
 use crate::scenario::memory::BYTES_PER_ELEMENT;
+use crate::scenario::numbers::numbers;
+use output::summary::Numbers;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -29,6 +31,8 @@ pub struct MeshReport {
     pub bodies: Vec<BodyReport>,
     /// What was chosen or corrected.
     pub notes: Vec<String>,
+    /// The dimensionless numbers of contact and friction.
+    pub numbers: Numbers,
     /// Shapes of the elements.
     pub quality: QualityReport,
     /// Time steps (s).
@@ -118,6 +122,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
     if let Some(path) = out {
         write_mesh(path, case, &model)?;
     }
+    let friction = numbers(case, &model, step);
     let bodies = model.mesh.bodies.iter().map(|body| BodyReport {
         name: body.name.clone(),
         nodes: body.nodes.len(),
@@ -131,7 +136,14 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
         fully_integrated: model.fully_integrated(),
         nodes,
         bodies: bodies.collect(),
-        notes: model.notes.clone(),
+        notes: model
+            .notes
+            .iter()
+            .cloned()
+            .chain(friction.line())
+            .chain(friction.expectation())
+            .collect(),
+        numbers: friction.result(),
         quality: QualityReport {
             min_scaled_jacobian: quality.min_scaled_jacobian,
             mean_scaled_jacobian: quality.mean_scaled_jacobian,

@@ -74,9 +74,10 @@ pub fn half_space(
         }
     }
     let at = interface(&setup);
+    let numbers = DimensionlessNumbers::of(case, at, setup.law.mu_static());
     Ok(HalfSpaceModel {
-        warnings: warnings(case, &setup, &at),
-        numbers: DimensionlessNumbers::of(case, at, setup.law.mu_static()),
+        warnings: numbers.expectation().into_iter().chain(coarse(case, &setup, &at)).collect(),
+        numbers,
         rolling: Rolling::new(setup)?,
         steps: steps as u64,
         points: points(case),
@@ -144,32 +145,20 @@ fn interface(setup: &Setup) -> friction::Interface {
 }
 
 /// What the grid is too coarse for.
-fn warnings(case: &Case, setup: &Setup, at: &friction::Interface) -> Vec<String> {
-    let falls = case.friction.exponential().filter(|law| friction::falling(law, at).is_some());
-    let Some(law) = falls else { return Vec::new() };
-    let h = setup.spacing;
-    match case.friction.memory {
-        Some(memory) => {
-            let length = friction::nucleation_length(&law, memory.distance, at);
-            let few = length < POINTS_PER_NUCLEATION * h;
-            let text = format!(
-                "the friction law's nucleation length is {} mm, {} spacings: below {POINTS_PER_NUCLEATION} what \
-                 slips fast depends on the grid; take mesh.zone.size = {:.1e} or less, or a longer friction.memory.distance",
-                three(1e3 * length),
-                three(length / h),
-                length / POINTS_PER_NUCLEATION
-            );
-            few.then_some(text).into_iter().collect()
-        }
-        None => {
-            let r = friction::falling(&law, at).map_or(0.0, |numbers| numbers.r);
-            let text = format!(
-                "friction falls with the slip velocity without memory, R = {r:.1}: above 1 disturbances grow the faster the \
-                 finer the grid, and no grid has the answer; give friction.memory.distance"
-            );
-            (r > 1.0).then_some(text).into_iter().collect()
-        }
-    }
+fn coarse(case: &Case, setup: &Setup, at: &friction::Interface) -> Option<String> {
+    let law = case.friction.exponential().filter(|law| friction::falling(law, at).is_some())?;
+    let (h, memory) = (setup.spacing, case.friction.memory?);
+    let length = friction::nucleation_length(&law, memory.distance, at);
+    let text = || {
+        format!(
+            "the friction law's nucleation length is {} mm, {} spacings: below {POINTS_PER_NUCLEATION} what slips \
+             fast depends on the grid; take mesh.zone.size = {:.1e} or less, or a longer friction.memory.distance",
+            three(1e3 * length),
+            three(length / h),
+            length / POINTS_PER_NUCLEATION
+        )
+    };
+    (length < POINTS_PER_NUCLEATION * h).then(text)
 }
 
 /// A nucleation length should have so many spacings.

@@ -7,6 +7,7 @@ use crate::case::schema::{Case, Creepage, DriveMode, Enforcement};
 use crate::scenario::model::{BAR, DISK, Model};
 use contact::Stiffness;
 use friction::{Falling, Interface};
+use halfspace::LineRolling;
 use output::summary::Numbers;
 use solid::Material;
 
@@ -20,8 +21,11 @@ pub struct DimensionlessNumbers {
     falling: Option<Falling>,
     /// Length of the zone of slip (m) by Carter's theory; at most the length of the patch.
     slip_length: f64,
-    /// Nucleation length (m) of friction with memory.
+    /// Distance of the law's memory (m), and nucleation length (m) with it.
+    memory: Option<f64>,
     nucleation: Option<f64>,
+    /// Distance of memory (m) from which steady rolling is stable.
+    stable_memory: Option<f64>,
 }
 
 /// The numbers of a case at Hertz's largest pressure, with the time step `dt` (s).
@@ -83,11 +87,21 @@ impl DimensionlessNumbers {
         let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
         let memory = case.friction.memory.map(|memory| memory.distance);
         let half_length = hertz(case).a;
+        let slip_length = 2.0 * half_length * slipping(case, mu, half_length);
+        let rolling = LineRolling {
+            modulus: at.modulus,
+            half_length,
+            pressure: at.pressure,
+            slip_length,
+            speed: case.drive.speed,
+        };
         Self {
             n1: None,
+            memory,
+            stable_memory: falls.and_then(|law| rolling.stable_memory(&law)),
             falling: falls.and_then(|law| friction::falling(&law, &at)),
             nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
-            slip_length: 2.0 * half_length * slipping(case, mu, half_length),
+            slip_length,
             at,
         }
     }
@@ -95,12 +109,13 @@ impl DimensionlessNumbers {
     /// The line of the log; none for a law that does not fall.
     pub fn line(&self) -> Option<String> {
         let f = self.falling?;
-        let mut line =
-            format!("falling friction at {} MPa: R {}", three(self.at.pressure * 1e-6), three(f.r));
-        if let Some(n1) = self.n1 {
-            line += &format!(", N1 {}", three(n1));
+        let mut line = format!("falling friction at {} MPa", three(self.at.pressure * 1e-6));
+        for (name, value) in [("R", Some(f.r)), ("N1", self.n1), ("N2", Some(f.n2))] {
+            // half-spaces have no surface layer, and without inertia no impedance
+            if let Some(value) = value.filter(|value| value.is_finite()) {
+                line += &format!(", {name} {}", three(value));
+            }
         }
-        line += &format!(", N2 {}", three(f.n2));
         if let (Some(least), Some(s_m), Some(jump)) = (f.f_min, f.s_m, f.s_jump) {
             line += &format!(
                 ", f_min/p {least:.4}, s_m {} m/s, jump to {} m/s",
@@ -110,6 +125,9 @@ impl DimensionlessNumbers {
         }
         if let (Some(length), Some(gamma)) = (self.nucleation, self.gamma()) {
             line += &format!(", h_n {} mm, Gamma {}", three(1e3 * length), three(gamma));
+        }
+        if let Some(distance) = self.stable_memory {
+            line += &format!(", stable from a memory of {} um", three(1e6 * distance));
         }
         Some(line)
     }
@@ -122,18 +140,21 @@ impl DimensionlessNumbers {
     /// One sentence on what to expect of the run, where there is reason for a warning.
     pub fn expectation(&self) -> Option<String> {
         let f = self.falling?;
-        match self.gamma() {
-            Some(gamma) if gamma > 1.0 => Some(format!(
-                "Gamma = {} is above 1: the zone of slip is longer than the nucleation length, and slip \
-                 may oscillate by itself",
-                three(gamma)
+        let stable = self.stable_memory.map(|distance| three(1e6 * distance));
+        match (self.memory, self.stable_memory) {
+            (Some(memory), Some(least)) if memory < least => Some(format!(
+                "friction.memory.distance = {memory:.1e} is below the {} um from which rolling is stable: slip \
+                 fluctuates by itself, and a mesh has the answer where it resolves h_n",
+                three(1e6 * least)
             )),
-            None if f.r > 1.0 => Some(format!(
+            (None, _) if f.r > 1.0 => Some(format!(
                 "R = {} is above 1: friction that falls with the slip speed of the instant has no solution that \
                  meshes converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in its \
-                 place ([friction.memory] gives a solution)",
+                 place ([friction.memory] gives a solution{})",
                 three(f.r),
-                f.s_jump.unwrap_or(0.0)
+                f.s_jump.unwrap_or(0.0),
+                stable
+                    .map_or(String::new(), |um| format!(", steady from a distance of {um} um on"))
             )),
             _ => None,
         }
@@ -154,6 +175,7 @@ impl DimensionlessNumbers {
             slip_length: Some(self.slip_length),
             nucleation_length: self.nucleation,
             gamma: self.gamma(),
+            stable_memory: self.stable_memory,
             expect: self.expectation(),
         }
     }

@@ -3,12 +3,12 @@
 import signal
 import sys
 
-from . import _creepage, _lsdyna_command, _render_command
+from . import _creepage, _from_command, _render_command
 
 
 def main() -> None:
     """Run the command line and end with its exit code."""
-    for command in (_render_command, _lsdyna_command):
+    for command in (_render_command, _from_command):
         words = command.taken(sys.argv[1:])
         if words is not None:
             sys.exit(command.main(words))

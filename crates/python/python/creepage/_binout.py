@@ -1,4 +1,4 @@
-"""The databases ``ncforc`` and ``nodout`` of LS-DYNA's binout files.
+"""The databases ``ncforc`` and ``nodout`` of LS-DYNA's binout files, and d3plot.
 
 The places of values are those that ``l2a`` reads, LSTC's program to write binout as text: ``/nodout/metadata/ids`` and
 ``/nodout/dNNNNNN/x_velocity``; ``/ncforc/slave_N/metadata/ids`` and ``/ncforc/slave_N/dNNNNNN/x_force``, with a folder
@@ -12,6 +12,7 @@ import re
 import numpy as np
 
 from ._errors import refuse
+from ._foreign import Records
 from ._optional import optional
 
 # binout, binout0000, binout0000%001, JOB.binout0003
@@ -23,13 +24,21 @@ CARDS = {
     "nodout": "*DATABASE_NODOUT with BINARY = 2, and *DATABASE_HISTORY_NODE_SET of the nodes of both surfaces",
 }
 
+# what does not tell how the contact conditions are kept
+WITHOUT_FORCES = {
+    "d3plot": "has no contact forces, without which nothing of the contact is judged",
+    "intfor": "cannot be read by lasso-python, and is no substitute for ncforc",
+}
+
 
 def opened(folder):
     """What the binout files of a folder hold together; the files are closed with the last reference to it."""
     files = sorted(str(path) for path in folder.iterdir() if NAME.search(path.name)) if folder.is_dir() else []
     if not files:
         help = f"give the folder of LS-DYNA's results; its deck needs {CARDS['ncforc']}, and {CARDS['nodout']}"
-        refuse(f"{folder} holds no binout", help)
+        there = sorted(path.name for path in folder.glob("*") if path.name in WITHOUT_FORCES)
+        why = "".join(f"; {name} {WITHOUT_FORCES[name]}" for name in there)
+        refuse(f"{folder} holds no binout{why}", help)
     lsda = optional("lasso.dyna.lsda_py3", "lsdyna", "lasso-python").Lsda
     lsda.fw = None  # its destructor asks for it, also where a file could not be opened
     try:
@@ -71,24 +80,23 @@ def values(folder, name, where):
     return np.frombuffer(raw, symbol.file.ordercode + kind)
 
 
-class Table:
+class Table(Records):
     """A database, or one side of one, with a row for each of its nodes."""
 
     def __init__(self, folder, name):
         metadata = folder.children.get("metadata")
         if metadata is None:
             refuse(f"binout holds no metadata of {name}", ANEW)
-        self.name, self.ids = name, values(metadata, "ids", name).astype(np.int64)
-        # states by their times in single precision, which some databases have and others do not
-        self.states = {}
+        super().__init__(name, values(metadata, "ids", name), f"add {CARDS[name.split('/')[0]]}, and run the deck again")
         for key, state in folder.children.items():
             if key != "metadata":
-                time = float(values(state, "time", f"{name}/{key}")[0])
-                self.states[float(np.float32(time))] = key, state, time
+                self.add(values(state, "time", f"{name}/{key}")[0], (key, state))
+        if not self.states or not len(self.ids):
+            refuse(f"{name} of binout is empty", self.remedy)
 
     def vectors(self, time, *quantities):
         """Quantities such as velocity at a time: for each an array of rows x, y, z."""
-        key, state, _ = self.states[time]
+        key, state = self.states[time][1]
         where = f"{self.name}/{key}"
         found = []
         for quantity in quantities:
@@ -100,9 +108,33 @@ class Table:
         return found
 
 
-def nodout(binout) -> Table:
-    """The motion of nodes."""
-    return stated(Table(database(binout, "nodout"), "nodout"), "nodout")
+def motion(binout, folder):
+    """The motion of nodes, of nodout or else of d3plot, and a note which."""
+    if "nodout" in binout.root.children or not (folder / "d3plot").exists():
+        return Table(database(binout, "nodout"), "nodout"), []
+    found = d3plot(folder / "d3plot")
+    times = [time for time, _ in found.states.values()]
+    interval = f", one state in {max(np.diff(times)):.3g}" if len(times) > 1 else ""
+    return found, [f"binout holds no nodout: the motion is that of d3plot{interval} of the deck's unit of time"]
+
+
+def d3plot(path) -> Records:
+    """The motion of all nodes of a d3plot and the files that continue it."""
+    plots = optional("lasso.dyna", "lsdyna", "lasso-python")
+    wanted = ["node_displacement", "node_velocity", "timesteps"]
+    try:
+        arrays = plots.D3plot(str(path), state_array_filter=wanted, buffered_reading=True).arrays
+    except Exception as problem:  # of a damaged file anything may come
+        refuse(f"{path} is damaged, cut short or no d3plot: {problem or type(problem).__name__}", ANEW)
+    missing = [name for name in ("node_ids", *wanted) if name not in arrays]
+    if missing:
+        refuse(f"{path} holds no {missing[0]}", f"add {CARDS['nodout']}, and run the deck again")
+    records = Records("d3plot", arrays["node_ids"], ANEW)
+    start = arrays["node_coordinates"].astype(float)
+    for time, moved, velocity in zip(*(arrays[name] for name in ("timesteps", *wanted[:2]))):
+        # what lasso-python calls displacement is the place
+        records.add(time, {"displacement": moved - start, "velocity": velocity.astype(float)})
+    return records
 
 
 def ncforc(binout) -> list[Table]:
@@ -111,11 +143,4 @@ def ncforc(binout) -> list[Table]:
     sides = {name: side for name, side in folder.children.items() if name != "metadata"}
     if not sides:
         refuse("ncforc of binout is empty", f"add {CARDS['ncforc']}, and run the deck again")
-    return [stated(Table(side, f"ncforc/{name}"), "ncforc") for name, side in sides.items()]
-
-
-def stated(table, name) -> Table:
-    """A table, unless it holds no state."""
-    if not table.states or not len(table.ids):
-        refuse(f"{table.name} of binout is empty", f"add {CARDS[name]}, and run the deck again")
-    return table
+    return [Table(side, f"ncforc/{name}") for name, side in sides.items()]

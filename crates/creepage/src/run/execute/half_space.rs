@@ -112,7 +112,8 @@ fn tell(model: &HalfSpaceModel, log: &mut Log) -> Result<(), NotWritten> {
             100.0 * faded
         ))?;
     }
-    log.say(&format!("step: {:.4e} s; {} steps", model.rolling.step_length(), model.steps))
+    log.say(&format!("step: {:.4e} s; {} steps", model.rolling.step_length(), model.steps))?;
+    model.numbers.line().iter().try_for_each(|line| log.say(line))
 }
 
 /// A run under way.
