@@ -268,6 +268,7 @@ Numbers = TypedDict(
         "s_jump": float | None,  # slip velocity to which a node jumps from rest (m/s)
         "s_m": float | None,  # slip velocity at that coefficient (m/s)
         "slip_length": float | None,  # l_slip, length of the zone of slip by Carter's theory (m)
+        "stable_memory": float | None,  # memory of friction from which steady rolling is stable (m)
     },
 )
 
