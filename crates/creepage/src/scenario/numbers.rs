@@ -143,8 +143,8 @@ impl DimensionlessNumbers {
         let stable = self.stable_memory.map(|distance| three(1e6 * distance));
         match (self.memory, self.stable_memory) {
             (Some(memory), Some(least)) if memory < least => Some(format!(
-                "friction.memory.distance = {memory:.1e} is below the {} um from which rolling is stable: slip \
-                 fluctuates by itself, and a mesh has the answer where it resolves h_n",
+                "friction.memory.distance = {memory:.1e} is below the {} um from which rolling in line contact is stable: slip \
+                 may fluctuate by itself, and a mesh has the answer where it resolves h_n",
                 three(1e6 * least)
             )),
             (None, _) if f.r > 1.0 => Some(format!(
