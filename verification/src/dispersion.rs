@@ -1,10 +1,11 @@
 //! How a small disturbance of steady sliding grows under falling friction with memory.
 //!
 //! Two equal elastic half-spaces slide past one another at V under the pressure p, across the wave of the disturbance
-//! (mode III) or along it (mode II, which does not change the pressure between equal bodies). Friction follows Eq. (8) with a memory, above its floor,
-//! `d(mu)/dt = -(s/d_c)(mu - mu_steady(s))`. The slip of the disturbance is `D exp(i k x + q t)`. The shear stress of
-//! the bodies at the interface falls by `D/Y(k, q)`, where Y is their compliance (Geubelle and Rice 1995, J. Mech.
-//! Phys. Solids 43: 1791–1824), and friction rises by `p dmu`. To first order `q dmu = -(V/d_c)(dmu - mu' q D)`, so that
+//! (mode III) or along it (mode II, which does not change the pressure between equal bodies). Friction follows
+//! Eq. (8) with a memory, above its floor, `d(mu)/dt = -(s/d_c)(mu - mu_steady(s))`. The slip of the disturbance is
+//! `D exp(i k x + q t)`. The shear stress of the bodies at the interface falls by `D/Y(k, q)`, where Y is their
+//! compliance (Geubelle and Rice 1995, J. Mech. Phys. Solids 43: 1791–1824), and friction rises by `p dmu`. To first
+//! order `q dmu = -(V/d_c)(dmu - mu' q D)`, so that
 //!
 //! `1/Y(k, q) + p mu'(V) q/(1 + q d_c/V) = 0`,
 //!
@@ -23,7 +24,7 @@
 //!   (with the sign of q, by radiation). In neither case can the left-hand side equal the right-hand side for T > 0: no
 //!   root crosses the axis. As T goes to 0 there are two roots to the right of it, for R > 1 and for R < 1 (where the
 //!   pair above grows at `T R^2/(1 - R^2)^2`), hence for every T. Without inertia the equation would be
-//!   `1 + T q = R q`, whose root decays for T > R, that is for waves shorter than [`friction::critical_length`]; with
+//!   `1 + T q = R q`, whose root decays for T > R, that is for waves shorter than `pi G d_c/(p V |mu'|)`; with
 //!   inertia waves along the interface grow instead, by `(R/T)^2` e-folds per distance d_c of slip.
 
 use faer::c64 as Complex;

@@ -13,8 +13,8 @@
 //!
 //! `C(y, y') = (2/(pi G*)) ln((sqrt y + sqrt y')/|sqrt y - sqrt y'|)`.
 //!
-//! Rolling is unstable where the largest eigenvalue of `sqrt(w) C sqrt(w)` is above one: a slip then feeds more than
-//! it releases. This is Uenishi and Rice's (2003) argument for a zone that material crosses. It leaves out that slip
+//! Rolling is unstable where the largest eigenvalue of `sqrt(w) C sqrt(w)` is above one: friction then falls by more than
+//! the stress of the bodies. This is Uenishi and Rice's (2003) argument for a zone that material crosses. It leaves out that slip
 //! zone and slip change with the law, and finite disturbances.
 
 use friction::{Exponential, FrictionLaw};
@@ -88,7 +88,7 @@ impl LineRolling {
         let (mut low, mut high) = (1e-3 * most, most);
         for _ in 0..40 {
             let middle = (low * high).sqrt();
-            if zone.feeds(&self.weakening(&zone, law, middle)) {
+            if zone.is_unstable(&self.weakening(&zone, law, middle)) {
                 low = middle
             } else {
                 high = middle
@@ -114,8 +114,8 @@ impl LineRolling {
 }
 
 impl Zone {
-    /// Whether slip that weakens friction at these rates (Pa/m) feeds more than it releases.
-    fn feeds(&self, weakening: &[f64]) -> bool {
+    /// Whether friction that weakens at these rates (Pa/m) falls by more than the stress of the bodies.
+    fn is_unstable(&self, weakening: &[f64]) -> bool {
         let roots: Vec<f64> = weakening.iter().map(|w| w.max(0.0).sqrt()).collect();
         let gain =
             DMatrix::from_fn(CELLS, CELLS, |i, j| roots[i] * self.compliance[(i, j)] * roots[j]);
@@ -149,8 +149,8 @@ mod tests {
         let zone = rolling.zone(0.5);
         // 0.7313 G*/W: a zone held ahead and free behind, by K = -(G*/(2 pi)) h/(d^2 - h^2/4) over 32 lengths behind
         let critical = 0.7313 * rolling.modulus / rolling.slip_length;
-        assert!(zone.feeds(&[1.003 * critical; CELLS]));
-        assert!(!zone.feeds(&[0.997 * critical; CELLS]));
+        assert!(zone.is_unstable(&[1.003 * critical; CELLS]));
+        assert!(!zone.is_unstable(&[0.997 * critical; CELLS]));
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub struct MeshReport {
     pub nodes: usize,
     /// The bodies.
     pub bodies: Vec<BodyReport>,
-    /// What was chosen or corrected.
+    /// What was chosen or corrected, and what to expect of falling friction.
     pub notes: Vec<String>,
     /// The dimensionless numbers of contact and friction.
     pub numbers: Numbers,

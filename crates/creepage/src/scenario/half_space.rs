@@ -75,8 +75,9 @@ pub fn half_space(
     }
     let at = interface(&setup);
     let numbers = DimensionlessNumbers::of(case, at, setup.law.mu_static());
+    let too_coarse = numbers.nucleation.and_then(|length| coarse(length, setup.spacing));
     Ok(HalfSpaceModel {
-        warnings: numbers.expectation().into_iter().chain(coarse(case, &setup, &at)).collect(),
+        warnings: numbers.expectation().into_iter().chain(too_coarse).collect(),
         numbers,
         rolling: Rolling::new(setup)?,
         steps: steps as u64,
@@ -144,11 +145,8 @@ fn interface(setup: &Setup) -> friction::Interface {
     }
 }
 
-/// What the grid is too coarse for.
-fn coarse(case: &Case, setup: &Setup, at: &friction::Interface) -> Option<String> {
-    let law = case.friction.exponential().filter(|law| friction::falling(law, at).is_some())?;
-    let (h, memory) = (setup.spacing, case.friction.memory?);
-    let length = friction::nucleation_length(&law, memory.distance, at);
+/// What a spacing `h` (m) is too coarse for, beside the nucleation length (m).
+fn coarse(length: f64, h: f64) -> Option<String> {
     let text = || {
         format!(
             "the friction law's nucleation length is {} mm, {} spacings: below {POINTS_PER_NUCLEATION} what slips \

@@ -21,9 +21,10 @@ pub struct DimensionlessNumbers {
     falling: Option<Falling>,
     /// Length of the zone of slip (m) by Carter's theory; at most the length of the patch.
     slip_length: f64,
-    /// Distance of the law's memory (m), and nucleation length (m) with it.
+    /// Distance of the law's memory (m).
     memory: Option<f64>,
-    nucleation: Option<f64>,
+    /// Nucleation length (m) of friction with memory.
+    pub(crate) nucleation: Option<f64>,
     /// Distance of memory (m) from which steady rolling is stable.
     stable_memory: Option<f64>,
 }

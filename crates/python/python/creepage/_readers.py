@@ -141,10 +141,10 @@ def frd(path):
                 time = float(line[12:24])
             elif kind.startswith("-4") and line[5:13].strip() in OF_FRD:
                 found, values = rows_of(path, lines)
-                whole = np.zeros((len(ids), values.shape[1]))
+                everywhere = np.zeros((len(ids), values.shape[1]))
                 known, rows = places(found, ids)
-                whole[known] = values[rows]
-                states.setdefault(time, {})[line[5:13].strip()] = whole
+                everywhere[known] = values[rows]
+                states.setdefault(time, {})[line[5:13].strip()] = everywhere
     if not states:
         refuse(f"{path} holds no results", f"write {OF_FRD['VELO']}, and {OF_FRD['CONTACT']}")
     known, corners = places(ids, bricks.ravel())
@@ -262,9 +262,9 @@ def field(med, name, axes, count) -> dict:
         profile = state["NOE"].attrs["PFL"].decode()
         values = state["NOE"][profile]["CO"][()].reshape(len(names), -1)
         rows = med["PROFILS"][profile]["PFL"][()] - 1 if profile in med.get("PROFILS", ()) else slice(None)
-        whole = np.zeros((count, 3))
-        whole[rows] = values[[names.index(axis) for axis in axes]].T
-        vectors[float(state.attrs["PDT"])] = whole
+        everywhere = np.zeros((count, 3))
+        everywhere[rows] = values[[names.index(axis) for axis in axes]].T
+        vectors[float(state.attrs["PDT"])] = everywhere
     return vectors
 
 
