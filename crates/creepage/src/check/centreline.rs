@@ -26,6 +26,8 @@ pub(crate) struct CentreLine {
     pub body: u8,
     /// Hertz's half axis a, half the length of the line (m).
     pub reach: f64,
+    /// Edge h of a surface element (m).
+    pub size: f64,
     nodes: Vec<usize>,
 }
 
@@ -48,13 +50,14 @@ impl CentreLine {
         let there = history.enforced_on.filter(|body| bodies.contains(body));
         let body = there.or(bodies.first().copied()).unwrap_or(0);
         let area = surface.area.iter().sum::<f64>() / surface.area.len().max(1) as f64;
-        let nodes = surface.centreline(body, basis.scale("size").unwrap_or(area.sqrt()));
+        let size = basis.scale("size").unwrap_or(area.sqrt());
+        let nodes = surface.centreline(body, size);
         if nodes.is_empty() {
             let what = "it has no node near the centre line".into();
             return Err(PostError::Lacks { path: history.path().into(), what });
         }
         let (times, slip, shear) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { times, slip, shear, speed, body, reach, nodes })
+        Ok(Self { times, slip, shear, speed, body, reach, size, nodes })
     }
 
     /// Adds a record. The disk's axis is taken to be at x = V t.
@@ -84,7 +87,8 @@ impl CentreLine {
     /// A line with these records of slip, without shear.
     #[cfg(test)]
     pub fn planted(times: Vec<f64>, slip: Rows, reach: f64, speed: f64) -> Self {
-        Self { times, slip, shear: Vec::new(), speed, body: 0, reach, nodes: Vec::new() }
+        let (shear, nodes, size) = (Vec::new(), Vec::new(), 0.25 * reach);
+        Self { times, slip, shear, speed, body: 0, reach, size, nodes }
     }
 
     /// x of the place `index`, relative to the disk's axis (m).

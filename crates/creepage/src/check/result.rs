@@ -545,6 +545,8 @@ pub enum SlipQuantity {
     Fluctuation,
     /// That over the root mean square of all slip.
     FluctuatingShare,
+    /// The same share with the mean over the time in which three elements pass.
+    FluctuatingShareOfElements,
     /// Largest slip speed.
     Largest,
     /// Distance over which the fluctuation correlates.
@@ -564,6 +566,7 @@ impl SlipQuantity {
             Self::Mean => ("m/s", "mean slip speed"),
             Self::Fluctuation => ("m/s", "rms of what differs from the mean over 2a/(10 V)"),
             Self::FluctuatingShare => ("1", "that over the rms of all slip"),
+            Self::FluctuatingShareOfElements => ("1", "the same share with the mean over 3 h/V"),
             Self::Largest => ("m/s", "largest slip speed"),
             Self::CorrelationLength => {
                 ("m", "distance over which the fluctuation correlates to more than 1/e")

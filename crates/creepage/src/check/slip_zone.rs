@@ -4,7 +4,8 @@
 //! The fluctuation is the difference from the running mean over a tenth of a contact transit, 2a/(10 V), centred
 //! on the instant, as in the measure of roughness: the slow change of a run that is not quite steady does not
 //! count. Its square is divided by the share that other records have in that mean, (n - 1)/n of n records of
-//! equal weight (Bessel's correction), so that it does not depend on the number of records in the span.
+//! equal weight (Bessel's correction), so that it does not depend on the number of records in the span. That span is fixed
+//! in space; the share for one fixed in elements, 3 h/V, stands beside it, since the first may be shorter than an element.
 
 use crate::check::centreline::{CentreLine, PLACES, Rows, profile};
 use crate::check::correlation::Correlation;
@@ -14,6 +15,9 @@ use output::confidence::of_batches;
 
 /// A place slips where its mean slip speed over time is at least this part of the largest such mean.
 const SLIPS: f64 = 0.1;
+
+/// Elements of the band that is fixed in elements.
+const ELEMENTS: f64 = 3.0;
 
 /// A fluctuating share above this is told. Exact contact with constant friction, damped, has 0.07 to 0.45 on 2 mm, the
 /// most at the least slip; undamped up to 0.75; Eq (8) without memory 0.9 and more.
@@ -31,6 +35,8 @@ pub(crate) struct SlipZone {
     pub fluctuation: Option<f64>,
     /// The fluctuation over the root mean square of the slip there.
     pub fluctuating_share: Option<f64>,
+    /// The same share with the running mean over the time in which [`ELEMENTS`] elements pass.
+    share_of_elements: Option<f64>,
     /// The largest value (m/s).
     pub largest: f64,
     /// Of the fluctuation over the longest row of neighbouring places of the zone.
@@ -54,6 +60,31 @@ struct Sums {
 }
 
 impl Sums {
+    /// The sums over `records` (index, time in s) and `places` of `slip`, `about` its running means with the share of `others`.
+    fn over(
+        records: &[(usize, f64)],
+        places: &[usize],
+        slip: &Rows,
+        about: &Rows,
+        others: &[f64],
+    ) -> Self {
+        let mut sums = Self::default();
+        for &(record, span) in records {
+            for &place in places {
+                let value = slip[record][place];
+                sums.weight += span;
+                sums.slip += span * value;
+                if others[record] > 0.0 {
+                    let away = value - about[record][place];
+                    sums.among += span;
+                    sums.fluctuating += span * away * away / others[record];
+                    sums.all += span * value * value;
+                }
+            }
+        }
+        sums
+    }
+
     /// Mean, fluctuation and its share; NaN where there is none.
     fn values(&self) -> [f64; 3] {
         let share = if self.all > 0.0 { (self.fluctuating / self.all).sqrt() } else { f64::NAN };
@@ -72,27 +103,18 @@ impl SlipZone {
         if most <= 0.0 {
             return None;
         }
-        let (about, others) = running_means(&line.times, weights, slip, 0.1 * line.transit());
+        let span = 0.1 * line.transit();
+        let (about, others) = running_means(&line.times, weights, slip, span);
         let over = |records: &[(usize, f64)]| {
-            let mut sums = Sums::default();
-            for &(record, span) in records {
-                for &place in &places {
-                    let value = slip[record][place];
-                    sums.weight += span;
-                    sums.slip += span * value;
-                    if others[record] > 0.0 {
-                        let away = value - about[record][place];
-                        sums.among += span;
-                        sums.fluctuating += span * away * away / others[record];
-                        sums.all += span * value * value;
-                    }
-                }
-            }
-            sums
+            Sums::over(records, &places, slip, &about, &others)
         };
         let whole: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
         let sums = over(&whole);
         let [mean, fluctuation, share] = sums.values();
+        let span = ELEMENTS * line.size / line.speed;
+        let (about_elements, others_elements) = running_means(&line.times, weights, slip, span);
+        let [.., share_of_elements] =
+            Sums::over(&whole, &places, slip, &about_elements, &others_elements).values();
         let some = |value: f64| Some(value).filter(|value| value.is_finite());
         let counts = slip.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
         let values = counts.flat_map(|(row, _)| places.iter().map(|&place| row[place]));
@@ -127,6 +149,7 @@ impl SlipZone {
             mean,
             fluctuation: some(fluctuation),
             fluctuating_share: some(share),
+            share_of_elements: some(share_of_elements),
             largest,
             correlation,
             halves,
@@ -169,7 +192,13 @@ impl SlipZone {
             };
             (quantity, statistic)
         });
-        let largest = (Q::Largest, SlipStatistic::of(Q::Largest, Some(self.largest)));
+        let others = [
+            (Q::Largest, SlipStatistic::of(Q::Largest, Some(self.largest))),
+            (
+                Q::FluctuatingShareOfElements,
+                SlipStatistic::of(Q::FluctuatingShareOfElements, self.share_of_elements),
+            ),
+        ];
         let Correlation { length, time, wavenumber, frequency } = self.correlation;
         let correlated = [
             (Q::CorrelationLength, length),
@@ -184,7 +213,7 @@ impl SlipZone {
         });
         let end = |place: Option<&usize>| place.map(|&place| line.place(place));
         SlipZoneMeasured {
-            statistics: averaged.chain([largest]).chain(correlated).collect(),
+            statistics: averaged.chain(others).chain(correlated).collect(),
             from: end(self.places.first()),
             to: end(self.places.last()),
         }
@@ -277,6 +306,20 @@ mod tests {
         assert_eq!(zone.note(), None);
         let zone = SlipZone::of(&line(1000, |_, k| 1.0 + 0.8 * sign(k)), &[1e-6; 1000]).unwrap();
         assert!(zone.note().unwrap().contains("is 61 % of its root mean square"));
+    }
+
+    #[test]
+    fn a_ripple_as_long_as_an_element_counts_among_elements_and_not_in_a_shorter_span() {
+        // an element of 1 mm passes in 25 us, a tenth of a transit takes 20
+        let ripple = |k: usize| 0.3 * libm::sin(std::f64::consts::TAU * k as f64 / 100.0);
+        let slip = line(1000, |_, k| 1.0 + ripple(k));
+        let zone = SlipZone::of(&slip, &[1e-6; 1000]).unwrap();
+        // a sine less its mean over three of four quarters of its period: 1 - sin(3 pi/4)/(3 pi/4)
+        let rms = (1.0_f64 + 0.5 * 0.09).sqrt();
+        let kept = 1.0 - libm::sin(0.75 * std::f64::consts::PI) / (0.75 * std::f64::consts::PI);
+        let wanted = 0.3 * 0.5_f64.sqrt() * kept / rms;
+        assert!((zone.share_of_elements.unwrap() / wanted - 1.0).abs() < 0.03);
+        assert!(zone.fluctuating_share.unwrap() < 0.15 * wanted);
     }
 
     #[test]

@@ -116,7 +116,7 @@ macro_rules! number {
 }
 
 /// Columns besides the parameters and the measures of the checks.
-const COLUMNS: [(&str, Source); 62] = [
+const COLUMNS: [(&str, Source); 63] = [
     ("dt", S::Step),
     ("dt_limit", number!(stability?.dt_limit)),
     ("steps", number!(steps)),
@@ -155,6 +155,10 @@ const COLUMNS: [(&str, Source); 62] = [
     ("slip_zone_mean", S::Slip(SlipQuantity::Mean)),
     ("slip_zone_fluctuation", S::Slip(SlipQuantity::Fluctuation)),
     ("slip_zone_fluctuating_share", S::Slip(SlipQuantity::FluctuatingShare)),
+    (
+        "slip_zone_fluctuating_share_of_elements",
+        S::Slip(SlipQuantity::FluctuatingShareOfElements),
+    ),
     ("slip_zone_largest", S::Slip(SlipQuantity::Largest)),
     ("slip_zone_correlation_length", S::Slip(SlipQuantity::CorrelationLength)),
     ("slip_zone_correlation_time", S::Slip(SlipQuantity::CorrelationTime)),
