@@ -16,17 +16,19 @@ import numpy as np
 
 MEMBERS = ("load.normal", "time.factor")
 SIZE = "mesh.zone.size"
-STUDENT = {2: 12.71, 4: 3.182, 8: 2.365}
+STUDENT = {2: 12.71, 3: 4.303, 4: 3.182, 5: 2.776, 6: 2.571, 7: 2.447, 8: 2.365}
 STATISTICS = ("mean", "fluctuation", "fluctuating_share", "fluctuating_share_of_elements", "largest")
 
 
 def grids(sweep):
-    """The completed runs by law and grid, coarse to fine; members in the order of the sweep."""
+    """The completed runs by law, grid (coarse to fine) and member."""
     found = {}
     for run in json.loads((sweep / "sweep.json").read_text())["runs"]:
-        law = tuple((k, v) for k, v in run["parameters"].items() if k not in (*MEMBERS, SIZE))
+        parameters = run["parameters"]
+        law = tuple((k, v) for k, v in parameters.items() if k not in (*MEMBERS, SIZE))
+        member = tuple(parameters[key] for key in MEMBERS if key in parameters)
         if run["status"] == "completed":
-            found.setdefault(law, {}).setdefault(run["parameters"][SIZE], []).append(run)
+            found.setdefault(law, {}).setdefault(parameters[SIZE], {})[member] = run
     return {law: dict(sorted(of.items(), reverse=True)) for law, of in found.items()}
 
 
@@ -44,21 +46,26 @@ def interval(values):
     return [float(values.mean()), float(STUDENT[len(values)] * values.std(ddof=1) / np.sqrt(len(values)))]
 
 
+def mean(pairs):
+    return dict(zip(("mean", "of_means"), map(float, pairs.mean(axis=0))))
+
+
 def main(table, *sweeps):
     rows = []
     for sweep in map(pathlib.Path, sweeps):
         for law, of in grids(sweep).items():
             sizes = list(of)
-            for i, (size, runs) in enumerate(of.items()):
+            for i, (size, members) in enumerate(of.items()):
+                runs = list(members.values())
                 zones = [run["check"]["slip_zone"] for run in runs]
                 row = {"law": dict(law), "size": size, "members": len(runs)}
                 row["traction"] = interval([run["summary"]["contact"]["traction_coefficient"] for run in runs])
                 row |= {name: interval([zone[name]["value"] for zone in zones]) for name in STATISTICS}
-                on_one = differences(sweep, [(runs[0], run) for run in runs[1:]])
-                row["on_one_grid"] = dict(zip(("mean", "most", "of_means"), (*on_one.mean(0)[:1], *on_one.max(0)[:1], on_one.mean(0)[1])))
-                if i + 1 < len(sizes):
-                    to_next = differences(sweep, list(zip(runs, of[sizes[i + 1]])))
-                    row["to_next"] = {"mean": to_next.mean(0)[0], "of_means": to_next.mean(0)[1]}
+                row["on_one_grid"] = mean(differences(sweep, [(runs[0], run) for run in runs[1:]]))
+                finer = of[sizes[i + 1]] if i + 1 < len(sizes) else {}
+                pairs = [(run, finer[member]) for member, run in members.items() if member in finer]
+                if pairs:
+                    row["to_next"] = mean(differences(sweep, pairs))
                 rows.append(row)
     pathlib.Path(table).write_text(json.dumps(rows, indent=1))
     for row in rows:

@@ -88,6 +88,13 @@ fn half_spaces_expect_of_falling_friction_what_elements_do_but_for_the_layer_tha
     assert!(at["n1"].is_null() && at["n2"].is_null(), "there is no layer of elements: {at}");
     assert!(without["r"].is_null(), "without waves there is no impedance: {without}");
     assert_eq!(without["gamma"], at["gamma"]);
+    // across rolling bodies of Poisson's ratio 0.3 are softer by 1 - 0.3
+    let across = rolled(&[&law[..], &["drive.creepage=0", "drive.lateral_creepage=1e-3"]].concat());
+    let along = rolled(&[&law[..], &["drive.creepage=1e-3"]].concat());
+    for key in ["slip_length", "nucleation_length"] {
+        let [one, other] = [&along, &across].map(|run| run.number(&format!("/numbers/{key}")));
+        assert!((other / one - 0.7).abs() < 1e-12, "{key}: {one} {other}");
+    }
 }
 
 #[test]

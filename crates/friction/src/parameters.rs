@@ -59,7 +59,7 @@ pub struct Parameters {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(description = with_laws("mode", "Which slip velocity the coefficient belongs to: `\"lagged\"`, that of the \
         step before, or `\"exact\"`, that of the same instant, which needs `contact.enforcement = \"exact\"`. Default \
-        `\"lagged\"`; of `\"rate_state\"` with exact enforcement `\"exact\"`."))]
+        `\"lagged\"`; of `\"rate_state\"` with exact enforcement and on half-spaces `\"exact\"`."))]
     pub mode: Option<Mode>,
     /// Memory of the coefficient.
     #[serde(default, skip_serializing_if = "Option::is_none")]

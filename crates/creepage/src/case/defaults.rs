@@ -46,7 +46,8 @@ impl Case {
         if self.drive.rises() {
             self.drive.ramp = Some(self.drive.ramp());
         }
-        self.friction.write_defaults(self.contact.enforcement == Enforcement::Exact);
+        let exact = self.contact.enforcement == Enforcement::Exact || self.is_half_space();
+        self.friction.write_defaults(exact);
         if self.contact.enforcement == Enforcement::Exact {
             self.contact.rows.get_or_insert_default();
         }

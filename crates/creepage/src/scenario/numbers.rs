@@ -66,20 +66,38 @@ fn tangential(case: &Case, model: &Model, depth: f64) -> Option<f64> {
     }
 }
 
+/// The shear modulus of both bodies against slip in the direction of the creepages, over that of mode II: 1 along rolling,
+/// 1 - nu across it for equal bodies (mode III), and between them that whose compliance is `cos^2 + sin^2/(1 - nu)`.
+fn directed_modulus(case: &Case, along: f64) -> f64 {
+    let [one, other] = [case.disk_material(), case.bar_material()].map(|m| {
+        let compliance = 2.0 * (1.0 + m.poisson) / m.young;
+        [(1.0 - m.poisson) * compliance, compliance]
+    });
+    let across = (one[0] + other[0]) / (one[1] + other[1]);
+    let lateral = case.drive.lateral_creepage;
+    match along.hypot(lateral) {
+        0.0 => 1.0,
+        size => 1.0 / ((along / size).powi(2) + (lateral / size).powi(2) / across),
+    }
+}
+
 /// Share of the patch's length that slips in steady rolling by Carter's theory (1926):
-/// `|xi| R/(mu_S a)` for a creepage xi, `1 - sqrt(1 - T/(mu_S N))` for a force T.
-fn slipping(case: &Case, mu: f64, half_length: f64) -> f64 {
-    let share = match case.drive.mode {
+/// `|xi| R/(mu_S a)` for a creepage xi along rolling, `1 - sqrt(1 - T/(mu_S N))` for a force T. In another
+/// direction the first is multiplied by `directed_modulus`, which is given beside it.
+fn slipping(case: &Case, mu: f64, half_length: f64) -> [f64; 2] {
+    let (share, directed) = match case.drive.mode {
         DriveMode::Creepage => {
-            let creepage = case.drive.creepage.as_ref().map_or(0.0, Creepage::largest);
-            creepage * case.disk.radius / (mu * half_length)
+            let along = case.drive.creepage.as_ref().map_or(0.0, Creepage::largest);
+            let directed = directed_modulus(case, along);
+            let creepage = along.hypot(case.drive.lateral_creepage);
+            (creepage * directed * case.disk.radius / (mu * half_length), directed)
         }
         DriveMode::Torque => {
             let force = case.drive.torque.unwrap_or(0.0).abs() / case.disk.radius;
-            1.0 - (1.0 - force / (mu * case.load.normal)).max(0.0).sqrt()
+            (1.0 - (1.0 - force / (mu * case.load.normal)).max(0.0).sqrt(), 1.0)
         }
     };
-    share.min(1.0)
+    [share.min(1.0), directed]
 }
 
 impl DimensionlessNumbers {
@@ -88,7 +106,9 @@ impl DimensionlessNumbers {
         let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
         let memory = case.friction.memory.map(|memory| memory.distance);
         let half_length = hertz(case).a;
-        let slip_length = 2.0 * half_length * slipping(case, mu, half_length);
+        let [share, directed] = slipping(case, mu, half_length);
+        let slip_length = 2.0 * half_length * share;
+        let at = Interface { modulus: directed * at.modulus, ..at };
         let rolling = LineRolling {
             modulus: at.modulus,
             half_length,

@@ -339,10 +339,12 @@ fn a_law_needs_and_gets_only_its_own_keys() {
         ["friction.law=exponential", "friction.memory.distance=1e-5", "friction.law=coulomb"];
     let case = set(&[&sets[..], &["friction.static=0.4"]].concat()).unwrap();
     assert_eq!((case.friction.memory, case.friction.number("decay")), (None, None));
-    let case =
-        set(&["contact.enforcement=exact", "friction.law=rate_state", "friction.distance=1"]);
-    let case = case.unwrap();
+    let law = ["friction.law=rate_state", "friction.distance=1"];
+    let [case, half_spaces] = ["contact.enforcement=exact", "model=half-space"]
+        .map(|contact| set(&[&[contact][..], &law].concat()).unwrap());
+    // with the slip velocity of the step before nothing would hold: the coefficient at rest is zero
     assert_eq!(case.friction.mode, Some(friction::Mode::Exact));
+    assert_eq!(half_spaces.friction.mode, Some(friction::Mode::Exact));
     assert_eq!(case.contact.rows, Some(crate::case::schema::Rows::NodeToFace));
 }
 
