@@ -61,6 +61,15 @@ pub(crate) const LINE: Hertz = Hertz {
 };
 
 impl Hertz {
+    /// A contact whose half axes (m) are given, under `load` (N; of a line contact, without a second half axis, N/m), for
+    /// half-spaces without elements.
+    pub(crate) fn of_patch(half_axes: [f64; 2], load: f64) -> Self {
+        let [a, b] = half_axes;
+        let part = if b > 0.0 { 1.5 / b } else { 2.0 };
+        let p0 = part * load / (std::f64::consts::PI * a);
+        Self { radii: [f64::NAN; 2], half_axes, p0, load, coarse: f64::NAN }
+    }
+
     /// The block for this contact, with elements of `size` (m) around the patch and half extent `extent` (m).
     pub(crate) fn block(&self, size: f64, extent: f64, lateral: Lateral) -> Block {
         let [a, b] = self.half_axes;

@@ -30,14 +30,14 @@ const LINES: [f64; 2] = [0.0, 0.5];
 const ADHESION: f64 = 1e4;
 
 /// A patch that rolls at constant rigid motion.
-struct Problem<'a> {
-    hertz: &'a Hertz,
-    material: Material,
-    law: Arc<dyn NodeFriction>,
+pub(crate) struct Problem<'a> {
+    pub(crate) hertz: &'a Hertz,
+    pub(crate) material: Material,
+    pub(crate) law: Arc<dyn NodeFriction>,
     /// Rolled distance (m), and the part of it at its end over which means are taken.
-    distance: f64,
+    pub(crate) distance: f64,
     /// See `distance`.
-    mean: f64,
+    pub(crate) mean: f64,
 }
 
 /// Means over the last spacings.
@@ -105,8 +105,13 @@ impl Problem<'_> {
         Ok(means)
     }
 
-    /// The same on grids of several spacings (m).
-    fn study(&self, spacings: &[f64], rigid: Rigid) -> Result<Vec<(f64, [f64; 6])>, Cause> {
+    /// The same on grids of several spacings (m): force over the normal force along x and y, creepage, largest shear (Pa), share
+    /// of stick, border of stick (m).
+    pub(crate) fn study(
+        &self,
+        spacings: &[f64],
+        rigid: Rigid,
+    ) -> Result<Vec<(f64, [f64; 6])>, Cause> {
         spacings
             .par_iter()
             .map(|&h| {
@@ -136,7 +141,7 @@ fn border(rolling: &Rolling, h: f64) -> f64 {
     stuck.map(|p| p.at[0]).fold(f64::INFINITY, f64::min) - 0.5 * h
 }
 
-fn along(along: Along) -> Rigid {
+pub(crate) fn along(along: Along) -> Rigid {
     Rigid { along, lateral: 0.0, spin: 0.0 }
 }
 

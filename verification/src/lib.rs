@@ -21,6 +21,7 @@ mod body;
 mod carter;
 mod cattaneo;
 mod collision;
+mod contact_examples;
 mod contact_turn;
 mod dispersion;
 mod finite_body;
@@ -49,6 +50,7 @@ mod shear_column_penalty;
 mod slider_tables;
 mod sliding;
 mod steady_rolling;
+mod unlike;
 mod waves;
 
 pub use convergence::{Convergence, Sample};

@@ -9,7 +9,7 @@ use crate::problem::Outcome;
 use crate::row::Row;
 use crate::{
     Size, contact_turn, finite_body, free_block, grading_reflection, hertz_stress, interface_patch,
-    mindlin, patch, rolling_limits, shear_column, sliding,
+    mindlin, patch, rolling_limits, shear_column, sliding, unlike,
 };
 use contact::{ContactRestart, PenaltyContact};
 use friction::{Implicit, Lagged};
@@ -261,4 +261,12 @@ fn memory_lost_in_a_zone_that_moves_is_caught_by_the_zone_that_stays() {
         run(&[]),
         lost,
     );
+}
+
+#[test]
+fn a_material_off_is_caught_by_free_rolling_of_unlike_ones() {
+    let run = |planted: &[&str]| unlike::run_with(Size::Quick, planted);
+    let off = run(&["disk.material.poisson=0.33"]);
+    let free = "(omega R - V)/V of free rolling";
+    catches("nu 0.33 in place of 0.31 in one body", "unlike-materials", free, run(&[]), off);
 }

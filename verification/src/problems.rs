@@ -1,12 +1,12 @@
 //! The list of problems.
 
 use crate::{
-    Problem, carter, cattaneo, collision, contact_turn, finite_body, free_block,
+    Problem, carter, cattaneo, collision, contact_examples, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz,
     hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, mindlin, patch,
     perturbation_growth, rolling_dynamic, rolling_limits, rolling_memory, rolling_sideways,
     rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
-    steady_rolling, waves,
+    steady_rolling, unlike, waves,
 };
 
 /// All problems, from the element to rolling contact.
@@ -237,6 +237,11 @@ pub const PROBLEMS: &[Problem] = &[
         run: half_space_rolling::memory,
     },
     Problem {
+        name: "half-space-examples",
+        about: "The same: forces of CONTACT's examples carter2d, tractcurv and fastsim",
+        run: contact_examples::run,
+    },
+    Problem {
         name: "mindlin",
         about: "A sphere shifted to and fro by a table of creepage: forces, stick and dissipation of a cycle",
         run: mindlin::run,
@@ -265,6 +270,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "rolling-sideways",
         about: "Drift and spin with finite elements beside half-spaces: the lateral force",
         run: rolling_sideways::run,
+    },
+    Problem {
+        name: "unlike-materials",
+        about: "Aluminium rolls freely on steel: creepage and stick of Bentall and Johnson",
+        run: unlike::run,
     },
     Problem {
         name: "slider-tables",

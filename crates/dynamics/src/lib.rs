@@ -43,7 +43,7 @@ pub use mesh_move::Moved;
 pub use quiet::QuietEnd;
 pub use ramp::{interpolated, smoothstep};
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
-pub use rolling::{RollingField, rolling_field};
+pub use rolling::{RollingField, rolling_field, rolling_field_of_unlike};
 pub use sideways::Sideways;
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};

@@ -99,6 +99,7 @@ section! {
         lateral_force: Option<f64> = "force of the bar on the disk, y, mean over the evaluation window" ["N"],
         traction_coefficient: Option<f64> = "tangential over normal force" ["1"],
         creepage: Option<f64> = "(omega R_eff - V)/V" ["1"],
+        nominal_creepage: Option<f64> = "(omega R - V)/V, with R the radius of the undeformed disk" ["1"],
         patch_half_length: Option<f64> = "half axis of the patch in x" ["m"],
         patch_half_width: Option<f64> = "half axis of the patch in y, or half the width of a line contact" ["m"],
         patch_area: Option<f64> = "area of the bar's nodes in contact" ["m2"],

@@ -3,8 +3,9 @@
 #[cfg(test)]
 pub(crate) mod tests;
 
-use mesh::{HEX_CORNERS as CORNERS, Mesh, Padded};
-use nalgebra::{Matrix3, Vector3};
+use mesh::{Face, HEX_CORNERS as CORNERS, Mesh, Padded};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use std::collections::BTreeMap;
 
 /// Volume V (m^3) and B_I = dV/dx_I (m^2; `[corner][axis]`) of a trilinear hexahedron, so that B_I/V is the mean
 /// gradient of the shape function of corner I (Flanagan and Belytschko 1981, Eqs 15–18).
@@ -56,4 +57,37 @@ pub fn nodal_gradients(mesh: &Mesh, displacement: &[Padded]) -> Vec<Matrix3<f64>
         }
     }
     sums.into_iter().map(|(sum, weight)| sum / weight).collect()
+}
+
+/// Derivative of the displacement along `direction` (the unit of that; dimensionless along a unit vector) at each node of
+/// `faces`: the mean of those within the faces around it, at its corner of each. What points out of a face is left out.
+/// Unlike [`nodal_gradients`] it belongs to the surface itself, not to the elements below.
+///
+/// # Panics
+/// If there are fewer displacements (m) than nodes.
+pub fn surface_derivatives(
+    mesh: &Mesh,
+    faces: &[Face],
+    displacement: &[Padded],
+    direction: impl Fn(u32) -> Vector3<f64>,
+) -> BTreeMap<u32, Vector3<f64>> {
+    let mut sums = BTreeMap::new();
+    for face in faces {
+        let x = face.nodes.map(|n| mesh.at(n));
+        let u = face.nodes.map(|n| displacement[n as usize].vector());
+        for (k, &node) in face.nodes.iter().enumerate() {
+            let [next, last] = [(k + 1) % 4, (k + 3) % 4];
+            let edges = [x[next] - x[k], x[last] - x[k]];
+            let along = direction(node);
+            // the combination of the two edges that is nearest to the direction
+            let products = Matrix2::from_fn(|i, j| edges[i].dot(&edges[j]));
+            let parts = Vector2::new(edges[0].dot(&along), edges[1].dot(&along));
+            let Some(parts) = products.lu().solve(&parts) else { continue };
+            let derivative = (u[next] - u[k]) * parts[0] + (u[last] - u[k]) * parts[1];
+            let (sum, count) = sums.entry(node).or_insert((Vector3::zeros(), 0.0));
+            *sum += derivative;
+            *count += 1.0;
+        }
+    }
+    sums.into_iter().map(|(node, (sum, count))| (node, sum / count)).collect()
 }

@@ -34,7 +34,7 @@ mod tensor;
 
 pub use centrifugal::Centrifugal;
 pub use formulation::{Element, Elements, Formulation, Volumetric};
-pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients};
+pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients, surface_derivatives};
 pub use lanes::Level;
 pub use mass::lumped_mass;
 pub use material::{Material, MaterialError};

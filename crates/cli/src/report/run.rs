@@ -118,6 +118,9 @@ fn contact(out: &mut String, summary: &Summary) {
             reference.map(|r| format!("{:.3}", value / r)).unwrap_or_default(),
         );
         let _ = writeln!(out, "{}{reason}", line.trim_end());
+        if mean == Mean::Creepage {
+            nominal_creepage(out, summary);
+        }
     }
     let share = |part: Option<f64>| format!("{} %", digits(scaled(part, 100.0), 3));
     let _ = writeln!(
@@ -146,6 +149,18 @@ fn contact(out: &mut String, summary: &Summary) {
             out,
             "  half-space: Hertz; {springs}coarse elements make the patch larger and the pressure \
              lower"
+        );
+    }
+}
+
+/// The creepage that the radius of the undeformed disk gives, beside that of the effective one.
+fn nominal_creepage(out: &mut String, summary: &Summary) {
+    let creepage = summary.contact.nominal_creepage.filter(|_| summary.rolling_radius.is_some());
+    if let Some(creepage) = creepage {
+        let (label, value) = ("creepage, nominal R", small(1e3 * creepage));
+        let _ = writeln!(
+            out,
+            "  {label:<24}{value:>12} 1e-3   (omega R - V)/V; the line above has R_eff in place of R"
         );
     }
 }
@@ -345,6 +360,19 @@ mod tests {
             page.contains("\n  without torque: this creepage is that of free rolling\n"),
             "{page}"
         );
+    }
+
+    #[test]
+    fn the_creepage_of_both_radii_is_told_of_a_disk_and_not_of_half_spaces() {
+        let mut rolled = summary();
+        rolled.contact.creepage = Some(0.3e-3);
+        rolled.contact.nominal_creepage = Some(3.8e-3);
+        assert!(!text(&rolled, Path::new("x"), None).contains("nominal"));
+        rolled.rolling_radius = Some(RollingRadius::default());
+        let page = text(&rolled, Path::new("x"), None);
+        let lines = "  creepage                      0.3000 1e-3\n  creepage, nominal R            3.800 1e-3   \
+                     (omega R - V)/V; the line above has R_eff in place of R\n";
+        assert!(page.contains(lines), "{page}");
     }
 
     #[test]

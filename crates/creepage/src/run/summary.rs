@@ -121,7 +121,7 @@ pub(crate) fn summary(
             external_work: last.external_work,
             balance_error: simulation.ledger().balance_error(),
         },
-        contact: contact_means(means),
+        contact: contact_means(means, &facts.radius),
         files: Files {
             postmortem: ending.postmortem.then(|| file::POSTMORTEM.to_owned()),
             ..Files::default()
@@ -186,14 +186,17 @@ pub(crate) fn without_rolling(
     }
 }
 
-pub(crate) fn contact_means(means: &Means) -> Contact {
+/// Means of the contact of a disk with the radii `radius`.
+pub(crate) fn contact_means(means: &Means, radius: &RollingRadius) -> Contact {
     let [tangential, lateral, normal] = means.force;
+    let larger = radius.nominal / radius.effective;
     Contact {
         normal_force: normal.mean(),
         tangential_force: tangential.mean(),
         lateral_force: lateral.mean(),
         traction_coefficient: means.traction.mean(),
         creepage: means.creepage.mean(),
+        nominal_creepage: means.creepage.mean().map(|xi| (1.0 + xi) * larger - 1.0),
         patch_half_length: means.half_length.mean(),
         patch_half_width: means.half_width.mean(),
         patch_area: means.area.mean(),

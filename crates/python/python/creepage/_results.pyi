@@ -51,6 +51,7 @@ Contact = TypedDict(
     {
         "creepage": float | None,  # (omega R_eff - V)/V (1)
         "lateral_force": float | None,  # force of the bar on the disk, y, mean over the evaluation window (N)
+        "nominal_creepage": float | None,  # (omega R - V)/V, with R the radius of the undeformed disk (1)
         "normal_force": float | None,  # force of the bar on the disk, z, mean over the evaluation window (N)
         "patch_area": float | None,  # area of the bar's nodes in contact (m2)
         "patch_area_fitted": float | None,  # area of the fitted ellipse, or of a line contact's rectangle (m2)

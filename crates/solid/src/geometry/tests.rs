@@ -64,3 +64,27 @@ fn the_gradient_of_an_affine_field_is_exact_on_a_distorted_element() {
     let (computed, _) = displacement_gradient(&x, &u);
     assert!((computed - h).abs().max() < 1e-14);
 }
+
+#[test]
+fn derivatives_along_a_surface_are_its_own_where_those_of_elements_are_half_an_element_deep() {
+    let mesh = mesh::block([6, 1, 4], [6e-3, 1e-3, 4e-3]);
+    let top = &mesh.bodies[0].surfaces["z+"].faces;
+    // u_x = x^2 + 3 x (z - L) strains the top, z = L, by 2 x, and what lies below by less
+    let displacement: Vec<Padded> = mesh
+        .nodes
+        .iter()
+        .map(|x| Vector3::new(x[0] * (x[0] + 3.0 * (x[2] - 4e-3)), 0.0, 0.0).into())
+        .collect();
+    let along = Vector3::new(2.0, 0.0, 5.0);
+    let of_surface = surface_derivatives(&mesh, top, &displacement, |_| along);
+    let of_elements = nodal_gradients(&mesh, &displacement);
+    assert_eq!(of_surface.len(), 14);
+    for (n, derivative) in of_surface {
+        let x = mesh.nodes[n as usize][0];
+        if x > 0.5e-3 && x < 5.5e-3 {
+            assert!((derivative[0] - 4.0 * x).abs() < 1e-12, "{x} {derivative}");
+            let deep = 2.0 * of_elements[n as usize][(0, 0)];
+            assert!((deep - 4.0 * x + 3e-3).abs() < 1e-12, "{x} {deep}");
+        }
+    }
+}

@@ -185,8 +185,7 @@ pub fn start(
         None => nominal,
     };
     let free = case.drive.speed / effective;
-    let velocity =
-        dynamics::rolling_field(&model.mesh, &displacement, &RollingField { omega: free, ..field });
+    let velocity = rolling_field(model, &displacement, &RollingField { omega: free, ..field });
 
     let mut hub = hub;
     hub.state.z = preload.map_or(case.disk.lift, |p| p.hub());
@@ -338,6 +337,17 @@ fn sideways(case: &Case) -> Option<Sideways> {
     (lateral_creepage != 0.0 || spin != 0.0).then_some(sideways)
 }
 
+/// Velocity of every node (m/s) of the preloaded bodies that roll, half a step before t = 0.
+fn rolling_field(model: &Model, displacement: &[Padded], field: &RollingField) -> Vec<Padded> {
+    let [disk, bar] = model.materials;
+    let is_alike = disk.young == bar.young && disk.poisson == bar.poisson;
+    if is_alike {
+        return dynamics::rolling_field(&model.mesh, displacement, field);
+    }
+    let [tread, top] = &model.zones;
+    dynamics::rolling_field_of_unlike(&model.mesh, [tread, top], displacement, field)
+}
+
 /// Effective rolling radius of the preloaded state: with the disk turning at `field.omega`, the
 /// mean forward velocities of both surfaces, weighted with the pressure, are V - omega R_d on the
 /// disk and -V e on the bar; they agree at V/omega = R_d/(1 + e).
@@ -347,8 +357,7 @@ fn effective_radius(
     displacement: &[Padded],
     field: &RollingField,
 ) -> f64 {
-    let velocity =
-        dynamics::rolling_field(&model.mesh, displacement, &RollingField { dt: 0.0, ..*field });
+    let velocity = rolling_field(model, displacement, &RollingField { dt: 0.0, ..*field });
     let mean = |side: usize| {
         let (mut sum, mut weight) = (0.0, 0.0);
         for &(n, load) in &loads[side] {

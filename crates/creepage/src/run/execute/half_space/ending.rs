@@ -11,8 +11,8 @@ use crate::run::means::Means;
 use crate::run::options::RunOptions;
 use crate::run::record::RecordBasis;
 use crate::run::summary::{contact_means, half_space, window};
-use crate::scenario::HalfSpaceModel;
 use crate::scenario::memory::peak_rss_mb;
+use crate::scenario::{HalfSpaceModel, RollingRadius};
 use dynamics::Energies;
 use output::summary::{Checks, Energy, Files, Spectral, Status, Summary};
 use std::time::Duration;
@@ -73,6 +73,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         .into_iter()
         .fold(f64::MIN_POSITIVE, |most: f64, e| most.max(e.abs()));
     let imbalance = energies.internal + energies.friction_dissipated - energies.external_work;
+    let radius = RollingRadius { nominal: case.disk.radius, effective: case.disk.radius };
     Summary {
         name: case.name.clone(),
         status: Some(ended.status),
@@ -92,7 +93,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
             balance_error: imbalance.abs() / exchanged,
             ..Energy::default()
         },
-        contact: contact_means(means),
+        contact: contact_means(means, &radius),
         files: Files::without_fields(),
         stages: [
             ("rolling", seconds(ended.rolling)),
