@@ -11,9 +11,9 @@ mod standard;
 
 pub use error::ProfileError;
 pub use file::{ProfileBody, read_profile};
-pub use first_contact::{ContactPoint, RigidSlip, WheelOnRail};
+pub use first_contact::{ContactPoint, Overlap, RigidSlip, WheelOnRail};
 pub use smoothing::{TOLERANCE, smoothed};
-pub use standard::{STANDARD_PROFILES, rail_60e1, wheel_s1002};
+pub use standard::{STANDARD_PROFILES, rail_60e1, rail_head, wheel_s1002};
 
 use smoothing::SmoothCurve;
 

@@ -3,6 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use mesh::profile::{
+    Profile, ProfileBody, ProfileError, STANDARD_PROFILES, rail_60e1, smoothed, wheel_s1002,
+};
 use output::FieldSpec;
 use output::layout::BODIES;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -65,6 +68,72 @@ impl JsonSchema for Crown {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({ "oneOf": [{ "type": "number" }, { "const": "flat" }] })
+    }
+}
+
+/// A transverse profile in the place of a crown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Value", into = "Value")]
+pub enum ProfileShape {
+    /// That of a standard, by its name.
+    Standard(String),
+    /// A smooth curve through points (y, z) (m), y away from the middle of the track and z down.
+    Points(Arc<[[f64; 2]]>),
+}
+
+impl ProfileShape {
+    /// The profile of a body.
+    ///
+    /// # Errors
+    /// Points that make no profile, or the name of the other body's.
+    pub fn profile(&self, body: ProfileBody) -> Result<Profile, ProfileError> {
+        let standard = |of: ProfileBody, profile: fn() -> Profile| match of == body {
+            true => Ok(profile()),
+            false => Err(ProfileError::Body { found: of, wanted: body }),
+        };
+        match self {
+            Self::Standard(name) if name == STANDARD_PROFILES[0] => {
+                standard(ProfileBody::Rail, rail_60e1)
+            }
+            Self::Standard(_) => standard(ProfileBody::Wheel, wheel_s1002),
+            Self::Points(points) => smoothed(points),
+        }
+    }
+}
+
+impl From<ProfileShape> for Value {
+    fn from(shape: ProfileShape) -> Self {
+        match shape {
+            ProfileShape::Standard(name) => name.into(),
+            ProfileShape::Points(points) => {
+                Self::Array(points.iter().map(|point| point.to_vec().into()).collect())
+            }
+        }
+    }
+}
+
+impl TryFrom<Value> for ProfileShape {
+    type Error = &'static str;
+
+    fn try_from(value: Value) -> Result<Self, &'static str> {
+        match (value.as_str(), points(&value)) {
+            (Some(name), _) => Ok(Self::Standard(name.to_owned())),
+            (None, Some(points)) => Ok(Self::Points(points.into())),
+            _ => Err("expected the name of a profile or pairs [y, z]"),
+        }
+    }
+}
+
+impl JsonSchema for ProfileShape {
+    fn schema_name() -> Cow<'static, str> {
+        "ProfileShape".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let pair = json_schema!({
+            "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
+        });
+        json_schema!({ "oneOf": [{ "type": "string" }, { "type": "array", "items": pair }] })
     }
 }
 

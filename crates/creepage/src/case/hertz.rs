@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use crate::case::schema::{BodyModel, Case};
 use contact::patch::PatchShape;
+use mesh::profile::ContactPoint;
 
 /// Patch and pressure of Hertz's elliptic contact, or of its line contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,15 +28,32 @@ impl Hertz {
     }
 }
 
-/// Sum of the curvatures across the rolling direction (1/m).
-fn across(case: &Case) -> f64 {
-    case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature()
+/// Sums of the curvatures along the rolling direction and across (1/m); with profiles those at the first point of contact,
+/// across no less than a hundredth of those along, and no numbers without contact.
+fn curvatures(case: &Case) -> [f64; 2] {
+    match case.wheel_on_rail() {
+        Ok(None) => {
+            let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+            [1.0 / case.disk.radius, across]
+        }
+        Ok(Some(pair)) => match pair.first_contact() {
+            Ok(ContactPoint { curvature: [along, across], .. }) => {
+                [along, across.max(FLATTEST * along)]
+            }
+            Err(_) => [f64::NAN; 2],
+        },
+        Err(_) => [f64::NAN; 2],
+    }
 }
+
+/// See [`curvatures`].
+const FLATTEST: f64 = 0.01;
 
 /// Shape of the patch of a case: a rectangle where both bodies are straight across, as in plane strain, else an
 /// ellipse.
 pub fn patch_shape(case: &Case) -> PatchShape {
-    if across(case) > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
+    let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+    if case.has_profiles() || across > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
 }
 
 /// Hertz's contact of a case's disk on its bar under `load.normal`. A line contact has the width of the narrower
@@ -43,8 +61,7 @@ pub fn patch_shape(case: &Case) -> PatchShape {
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::case::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
     let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
-    let along = 1.0 / case.disk.radius;
-    let across = across(case);
+    let [along, across] = curvatures(case);
     let load = case.load.normal;
     if patch_shape(case) == PatchShape::Rectangle {
         let width = match case.model {
@@ -78,6 +95,18 @@ pub fn dundurs_beta(case: &Case) -> f64 {
 fn line(load_per_width: f64, curvature: f64, modulus: f64, width: f64) -> Hertz {
     let a = (4.0 * load_per_width / (PI * curvature * modulus)).sqrt();
     Hertz { a, b: width / 2.0, p0: 2.0 * load_per_width / (PI * a), approach: 0.0 }
+}
+
+/// The coefficients (1/m) of the gap A x^2 + B y^2 whose patch has these half axes along x and y (m) under a load (N); `modulus` (Pa)
+/// is E*.
+pub fn curvatures_of_axes(load: f64, axes: [f64; 2], modulus: f64) -> [f64; 2] {
+    let (long, short) = (axes[0].max(axes[1]), axes[0].min(axes[1]));
+    // a circle has the limit (K - E)/m = pi/4
+    let m = (1.0 - (short / long).powi(2)).max(1e-9);
+    let (k, e) = elliptic(m);
+    let low = 1.5 * load * (k - e) / (PI * modulus * m * long.powi(3));
+    let high = low * (e / (1.0 - m) - k) / (k - e);
+    if axes[0] >= axes[1] { [low, high] } else { [high, low] }
 }
 
 /// Elliptic contact with gap `low` x^2 + `high` y^2, `low <= high`, so that `a >= b`
@@ -115,4 +144,21 @@ fn elliptic(m: f64) -> (f64, f64) {
     }
     let k = PI / (2.0 * x);
     (k, k * (1.0 - sum))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_curvatures_of_given_axes_have_those_axes() {
+        for axes in [[8e-3, 4e-3], [3e-3, 5e-3], [5e-3, 5e-3]] {
+            let [along, across] = curvatures_of_axes(82e3, axes, 1.1e11);
+            let found = ellipse(82e3, along.min(across), along.max(across), 1.1e11);
+            let found = if along <= across { [found.a, found.b] } else { [found.b, found.a] };
+            for (found, given) in found.iter().zip(axes) {
+                assert!((found / given - 1.0).abs() < 1e-4, "{found} {given}");
+            }
+        }
+    }
 }

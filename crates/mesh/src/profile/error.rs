@@ -1,5 +1,6 @@
 //! Why a profile cannot be used.
 
+use super::ProfileBody;
 use thiserror::Error;
 
 /// Why a profile, or the position of a wheel on a rail, cannot be used. Places are those of the file, in mm.
@@ -52,12 +53,12 @@ pub enum ProfileError {
         degrees: f64,
     },
     /// A file of the other body.
-    #[error("the file says that it is the profile of a {found}, and a {wanted} is meant")]
+    #[error("this is the profile of a {}, and that of a {} is meant: are wheel and rail swapped?", found.name(), wanted.name())]
     Body {
         /// What it is of.
-        found: &'static str,
+        found: ProfileBody,
         /// What it should be of.
-        wanted: &'static str,
+        wanted: ProfileBody,
     },
     /// A feature of the file that is not read.
     #[error("line {line}: {key} = {value} is not read")]

@@ -12,7 +12,7 @@ pub enum ProfileBody {
 }
 
 impl ProfileBody {
-    const fn name(self) -> &'static str {
+    pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Rail => "rail",
             Self::Wheel => "wheel",
@@ -83,8 +83,7 @@ impl Header {
             "type" if self.first => {
                 let found = if number == 0.0 { ProfileBody::Rail } else { ProfileBody::Wheel };
                 if found != body {
-                    let (found, wanted) = (found.name(), body.name());
-                    return Err(ProfileError::Body { found, wanted });
+                    return Err(ProfileError::Body { found, wanted: body });
                 }
             }
             "units.len.f" if number > 0.0 => self.unit = Some(1.0 / number),
@@ -118,7 +117,7 @@ fn point(line: usize, content: &str) -> Result<[f64; 2], ProfileError> {
 }
 
 /// Whether points are those of a profile; a file that does not say its unit may be one in metres.
-fn check(points: &[[f64; 2]], says_unit: bool) -> Result<(), ProfileError> {
+pub(super) fn check(points: &[[f64; 2]], says_unit: bool) -> Result<(), ProfileError> {
     let mm = |x: f64| 1e3 * x;
     let width = points.first().zip(points.last()).map_or(0.0, |(first, last)| last[0] - first[0]);
     if !says_unit && points.len() >= FEWEST && mm(width) < METRES && width > 0.0 {
@@ -197,7 +196,7 @@ mod tests {
         };
         let points = read_profile(&text(0, 0.0), ProfileBody::Rail).unwrap();
         assert!((points[0][0] + 0.03).abs() < 1e-15 && points.len() == 61);
-        assert!(refused(&text(1, 0.0)).contains("profile of a wheel, and a rail is meant"));
+        assert!(refused(&text(1, 0.0)).contains("profile of a wheel, and that of a rail is meant"));
         assert!(refused(&text(0, 0.1)).contains("line 6: rotate = 0.1"));
     }
 }

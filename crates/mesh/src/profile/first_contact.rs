@@ -52,8 +52,19 @@ pub struct ContactPoint {
     pub curvature: [f64; 2],
 }
 
-/// Velocity of the wheel against the rail at the point of contact, over the speed.
+/// A part of the profiles where the undeformed bodies overlap.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// y of its two ends on the wheel (m).
+    pub ends: [f64; 2],
+    /// The rail's angle where the overlap is deepest (rad).
+    pub angle: f64,
+    /// How deep it is there, along the normal (m).
+    pub depth: f64,
+}
+
+/// Velocity of the wheel against the rail at the point of contact, over the speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct RigidSlip {
     /// Longitudinal creepage, positive when driving.
     pub longitudinal: f64,
@@ -132,13 +143,14 @@ impl WheelOnRail {
     }
 
     /// Distance of the wheel above the rail at `s`, with its centre at the height zero of the rail's origin; the difference
-    /// of their slopes; and u of the rail below.
-    fn height(&self, axes: &Axes, s: f64) -> Option<[f64; 3]> {
+    /// of their slopes; u of the rail below; and the rail's slope there.
+    fn height(&self, axes: &Axes, s: f64) -> Option<[f64; 4]> {
         let (at, slope) = self.candidate(axes, s)?;
         let y = at.y + self.lateral;
         let u = self.on_rail([0.0; 2], [1.0, 0.0], y, y)?;
         let [rail, by_u, _] = self.rail_point(u)?;
-        Some([at.z - rail[1], slope - by_u[1] / by_u[0], u])
+        let steep = by_u[1] / by_u[0];
+        Some([at.z - rail[1], slope - steep, u, steep])
     }
 
     /// The heights at all samples of the wheel's profile that lie over the rail.
@@ -167,7 +179,7 @@ impl WheelOnRail {
         let nearest = nearest.ok_or_else(apart)?;
         if nearest == 0 || nearest + 1 == heights.len() {
             let s = heights[nearest][0];
-            let u = self.height(&axes, s).map_or(f64::NAN, |[.., u]| u);
+            let u = self.height(&axes, s).map_or(f64::NAN, |[_, _, u, _]| u);
             return Err(ProfileError::AtEnd { wheel_mm: 1e3 * s, rail_mm: 1e3 * u });
         }
         // the slopes are equal between the neighbours of the nearest sample
@@ -177,7 +189,7 @@ impl WheelOnRail {
             if middle <= low || middle >= high {
                 break;
             }
-            let [_, slope, _] = self.height(&axes, middle).ok_or_else(apart)?;
+            let [_, slope, ..] = self.height(&axes, middle).ok_or_else(apart)?;
             if slope < 0.0 { low = middle } else { high = middle }
         }
         let s = 0.5 * (low + high);
@@ -186,27 +198,30 @@ impl WheelOnRail {
     }
 
     /// The point on the rail in the middle of where the undeformed bodies would overlap by `approach` (m) at most, as CONTACT takes
-    /// it: each place counts by the area, over x and z, of the overlap there, whose length along x grows as the root of its depth.
+    /// it: each point of the overlap counts by the square of its depth, and its length along x grows as the root of the depth.
+    /// The angle is the mean of the rail's with the same weights.
     pub fn centre_of_overlap(&self, first: &ContactPoint, approach: f64) -> Option<ContactPoint> {
-        let (mut sum, mut moment) = (0.0, 0.0);
-        self.each_overlap(first, approach, |s, depth| {
-            let weight = depth * depth.sqrt();
+        let (mut sum, mut moment, mut turned) = (0.0, 0.0, 0.0);
+        self.each_overlap(first, approach, |s, angle, depth| {
+            let weight = depth * depth * depth.sqrt();
             sum += weight;
             moment += weight * s;
+            turned += weight * angle;
         });
         let axes = self.axes();
         let [height, ..] = self.height(&axes, first.profile_y[0])?;
-        self.point_at(&axes, moment / sum, -height)
+        let point = self.point_at(&axes, moment / sum, -height)?;
+        Some(ContactPoint { angle: turned / sum, ..point })
     }
 
     /// Everything about the place at `s` of the wheel, whose centre lies at the height `centre` over the rail's origin.
     fn point_at(&self, axes: &Axes, s: f64, centre: f64) -> Option<ContactPoint> {
         let theta = self.silhouette(axes, s)?;
         let [on_wheel, _, around] = self.wheel_point(axes, s, theta)?;
-        let [.., u] = self.height(axes, s)?;
+        let [_, _, u, steep] = self.height(axes, s)?;
         let [on_rail, by_u, by_uu] = self.rail_point(u)?;
         let from_centre = Vector3::new(on_wheel.x, on_rail[0] - self.lateral, on_rail[1] - centre);
-        let angle = libm::atan2(by_u[1], by_u[0]);
+        let angle = libm::atan(steep);
         let size = dot(by_u, by_u).sqrt();
         let rail = (by_u[1] * by_uu[0] - by_u[0] * by_uu[1]) / (size * size * size);
         let [r, slope, bend] = self.radius_at(s)?;
@@ -269,31 +284,43 @@ impl WheelOnRail {
         }
     }
 
-    /// The parts of the wheel's profile (y of both ends, m) where the undeformed bodies overlap after an `approach` (m) along the
-    /// normal: more than one where they touch at two places.
-    pub fn overlaps(&self, first: &ContactPoint, approach: f64) -> Vec<[f64; 2]> {
+    /// The parts of the profiles that overlap, undeformed, after the wheel has come down by `approach` (m) along the normal at the
+    /// first point of contact: more than one where they touch at several places.
+    pub fn overlaps(&self, first: &ContactPoint, approach: f64) -> Vec<Overlap> {
         let [low, high] = self.wheel.ends();
         let apart = 1.5 * (high - low) / SAMPLES as f64;
-        let mut found: Vec<[f64; 2]> = Vec::new();
-        self.each_overlap(first, approach, |s, _| match found.last_mut() {
-            Some(part) if s - part[1] < apart => part[1] = s,
-            _ => found.push([s, s]),
+        let mut found: Vec<Overlap> = Vec::new();
+        self.each_overlap(first, approach, |s, angle, depth| match found.last_mut() {
+            Some(part) if s - part.ends[1] < apart => {
+                part.ends[1] = s;
+                if depth > part.depth {
+                    (part.angle, part.depth) = (angle, depth);
+                }
+            }
+            _ => found.push(Overlap { ends: [s, s], angle, depth }),
         });
         found
     }
 
-    /// Hands over the samples of the wheel's profile that overlap, with the depth (m).
-    fn each_overlap(&self, first: &ContactPoint, approach: f64, mut visit: impl FnMut(f64, f64)) {
+    /// Hands over the samples of the wheel's profile that overlap, with the rail's angle and the depth (m).
+    fn each_overlap(
+        &self,
+        first: &ContactPoint,
+        approach: f64,
+        mut visit: impl FnMut(f64, f64, f64),
+    ) {
         let axes = self.axes();
         let contact = self.height(&axes, first.profile_y[0]).map_or(f64::NAN, |[z, ..]| z);
-        for [s, z] in self.heights(&axes) {
-            let Some((_, slope)) = self.candidate(&axes, s) else { continue };
-            // a rigid approach along the normal of the plane of contact, seen along that of the place
-            let there = libm::atan(slope);
-            let depth =
-                approach * libm::cos(there - first.angle) - (z - contact) * libm::cos(there);
+        // the wheel comes down vertically
+        let down = approach / libm::cos(first.angle);
+        let [low, high] = self.wheel.ends();
+        for i in 0..=SAMPLES {
+            let s = low + (high - low) * i as f64 / SAMPLES as f64;
+            let Some([z, _, _, slope]) = self.height(&axes, s) else { continue };
+            let angle = libm::atan(slope);
+            let depth = (down - (z - contact)) * libm::cos(angle);
             if depth > 0.0 {
-                visit(s, depth);
+                visit(s, angle, depth);
             }
         }
     }

@@ -4,7 +4,8 @@
 //! tread. Of all functions whose points miss the measured ones by a given rms distance they have the least integral of the
 //! squared second derivative (Reinsch 1967, "Smoothing by spline functions", Numer. Math. 10).
 
-use super::{Profile, Shape};
+use super::file::check;
+use super::{Profile, ProfileError, Shape};
 
 /// The rms distance (m) of the smooth curve from the measured points.
 pub const TOLERANCE: f64 = 1e-6;
@@ -12,9 +13,13 @@ pub const TOLERANCE: f64 = 1e-6;
 /// Halvings of the bracket of the smoothing parameter's logarithm.
 const HALVINGS: usize = 40;
 
-/// The smooth curve through points (y, z) with y rising that [`read_profile`](super::read_profile) accepts.
-pub fn smoothed(points: &[[f64; 2]]) -> Profile {
-    Profile { shape: Shape::Measured(SmoothCurve::through(points)) }
+/// The smooth curve through points (y, z) with y rising (m).
+///
+/// # Errors
+/// Points that are too few, do not rise in y, or have a kink.
+pub fn smoothed(points: &[[f64; 2]]) -> Result<Profile, ProfileError> {
+    check(points, true)?;
+    Ok(Profile { shape: Shape::Measured(SmoothCurve::through(points)) })
 }
 
 /// A parametric cubic spline with natural ends.
@@ -178,7 +183,7 @@ mod tests {
 
     #[test]
     fn a_circle_is_met_with_its_curvature_within_the_tolerance() {
-        let profile = smoothed(&circle(0.0));
+        let profile = smoothed(&circle(0.0)).unwrap();
         for y in [-0.02, -0.001, 0.0, 0.013] {
             let [z, slope, bend] = profile.at(y).unwrap();
             let exact = 0.08 - (0.0064 - y * y).sqrt();
@@ -190,7 +195,7 @@ mod tests {
 
     #[test]
     fn noise_of_the_size_of_the_tolerance_is_smoothed_away() {
-        let profile = smoothed(&circle(0.9 * TOLERANCE));
+        let profile = smoothed(&circle(0.9 * TOLERANCE)).unwrap();
         let [.., bend] = profile.at(0.001).unwrap();
         assert!((bend * 0.08 - 1.0).abs() < 0.05, "{bend}");
         // the points themselves bend by 4 noise/h^2

@@ -8,16 +8,20 @@ pub const STANDARD_PROFILES: [&str; 2] = ["60E1", "S1002"];
 /// Lengths of the drawings are in mm.
 const MM: f64 = 1e-3;
 
-/// Head of the rail 60E1 (EN 13674-1, once UIC 60): arcs of 300, 80 and 13 mm that join with a common tangent at half of
-/// 20.456 and of 52.053 mm, then flanks of 20:1 down to 36 mm below the apex; the rail stands upright, y = z = 0 at the
-/// apex.
+/// Head of the rail 60E1 (EN 13674-1, once UIC 60): its arcs join at half of 20.456 and of 52.053 mm.
 pub fn rail_60e1() -> Profile {
+    rail_head([0.5 * 20.456e-3, 0.5 * 52.053e-3])
+}
+
+/// A rail's head of arcs of 300, 80 and 13 mm that join with a common tangent at `joints` (m from the middle), then flanks of
+/// 20:1 down to 36 mm below the apex; the rail stands upright, y = z = 0 at the apex.
+pub fn rail_head(joints: [f64; 2]) -> Profile {
     const FLANK: f64 = 20.0;
     const DEPTH: f64 = 36.0;
     let mut right = Vec::new();
     let (mut from, mut centre) = (0.0, [0.0, 300.0]);
     let mut radius = 300.0;
-    for (next, to) in [(80.0, 0.5 * 20.456), (13.0, 0.5 * 52.053)] {
+    for (next, to) in [(80.0, joints[0] / MM), (13.0, joints[1] / MM)] {
         right.push((from, to, Drawn::Arc { centre, radius, below: false }));
         let [z, ..] = Drawn::Arc { centre, radius, below: false }.at(to);
         // the centre of the next arc lies on the radius to the joint
