@@ -21,6 +21,7 @@ const PROFILES: [(&str, ProfileBody, &str); 2] =
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
     for (section, body, ending) in PROFILES {
         let key = format!("{section}.profile");
+        name_of_number(layers, section);
         let shown = get(&layers.table, &key).and_then(Value::as_str).unwrap_or_default().to_owned();
         let Some(path) = layers.file_at(&key) else { continue };
         if STANDARD_PROFILES.contains(&shown.as_str()) {
@@ -49,6 +50,15 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
         }
     }
     Ok(())
+}
+
+/// `--set bar.profile=60E1` without quotes is the number 60e1 of TOML.
+fn name_of_number(layers: &mut Layers, section: &str) {
+    if let Some(Value::Table(table)) = layers.table.get_mut(section)
+        && table.get("profile") == Some(&Value::Float(600.0))
+    {
+        table.insert("profile".into(), STANDARD_PROFILES[0].into());
+    }
 }
 
 /// The profile of a file.
