@@ -83,16 +83,6 @@ impl Profile {
             Shape::Measured(curve) => Some(curve.at(y)),
         }
     }
-
-    /// Largest distance of points (y, z) from the curve among those `within` bounds of y, and where it is.
-    pub fn farthest(&self, points: &[[f64; 2]], within: [f64; 2]) -> Option<[f64; 2]> {
-        let inside = points.iter().filter(|p| (within[0]..=within[1]).contains(&p[0]));
-        let distances = inside.filter_map(|&[y, z]| {
-            let [at, slope, _] = self.at(y)?;
-            Some([(z - at).abs() / (1.0 + slope * slope).sqrt(), y])
-        });
-        distances.max_by(|a, b| a[0].total_cmp(&b[0]))
-    }
 }
 
 impl Drawn {

@@ -1,7 +1,7 @@
 //! A position of the benchmark's wheelset, rolled by half-spaces.
 
 use crate::problem::Cause;
-use creepage::scenario::wheel_on_rail::{press_wheel, spacing};
+use creepage::scenario::wheel_on_rail::press_wheel;
 use friction::Coulomb;
 use halfspace::{Along, HalfSpaces, Inertia, Patch, Rigid, Rolling, Setup};
 use mesh::profile::{Profile, WheelOnRail, rail_head, wheel_s1002};
@@ -109,7 +109,7 @@ impl BenchmarkCase {
     ) -> Result<(f64, Values), Cause> {
         let bodies = HalfSpaces::new(2.0 * 1.28 * 82e9, 0.28, 7800.0);
         let (pair, top) = self.pair(rail).ok_or("the rail's profile is too short")?;
-        let h = spacing(&bodies, &pair, LOAD, across)?;
+        let h = spacing(&pair, across)?;
         let mut normal = guess;
         for _ in 0..ROUNDS {
             let pressed = press_wheel(&bodies, &pair, normal, h)?;
@@ -183,4 +183,15 @@ fn steady(bodies: HalfSpaces, patch: Patch, rigid: Rigid, h: f64) -> Result<[f64
         }
     }
     Err("rolling did not become steady".into())
+}
+
+/// A spacing (m) on which the patch of the load has about so many points on its mean diameter, and at least so many on its shorter
+/// axis, by Hertz's theory: the axes are nearly as the curvatures to the power of 2/3 (Greenwood 1997).
+fn spacing(pair: &WheelOnRail, [mean, shorter]: [f64; 2]) -> Result<f64, Cause> {
+    let [along, sideways] = pair.first_contact()?.curvature;
+    let sideways = sideways.max(0.1 * along);
+    // a sphere of the mean curvature: a^3 = 3 N R/(4 E*), E* = G/(1 - nu)
+    let half_axis = libm::cbrt(0.75 * LOAD * 0.72 / (82e9 * (along * sideways).sqrt()));
+    let narrower = libm::cbrt((along / sideways).min(sideways / along));
+    Ok(2.0 * half_axis * (1.0 / mean).min(narrower / shorter))
 }

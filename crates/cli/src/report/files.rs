@@ -66,10 +66,9 @@ pub fn case(ImportedK { case, elements, notes, cards, .. }: &ImportedK) -> Strin
     page + &format!("{case}: {elements} elements; creepage run {quoted}\n")
 }
 
-/// The case files of `import-inp`, and what they say in another way.
-pub fn inp_cases(ImportedInp { cases, notes }: &ImportedInp) -> String {
-    let notes = notes.iter().map(|note| format!("  {note}\n"));
-    notes.chain(cases.iter().map(|case| format!("{case}\n"))).collect()
+/// The case files of `import-inp`.
+pub fn inp_cases(ImportedInp { cases }: &ImportedInp) -> String {
+    cases.iter().map(|case| format!("{case}\n")).collect()
 }
 
 /// The keyword file of `export-k`, and what it says in another way than the case.

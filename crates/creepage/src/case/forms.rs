@@ -72,13 +72,13 @@ impl JsonSchema for Crown {
 }
 
 /// A transverse profile in the place of a crown.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Value", into = "Value")]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
 pub enum ProfileShape {
     /// That of a standard, by its name.
     Standard(String),
     /// A smooth curve through points (y, z) (m), y away from the middle of the track and z down.
-    Points(Arc<[[f64; 2]]>),
+    Points(Vec<[f64; 2]>),
 }
 
 impl ProfileShape {
@@ -98,42 +98,6 @@ impl ProfileShape {
             Self::Standard(_) => standard(ProfileBody::Wheel, wheel_s1002),
             Self::Points(points) => smoothed(points),
         }
-    }
-}
-
-impl From<ProfileShape> for Value {
-    fn from(shape: ProfileShape) -> Self {
-        match shape {
-            ProfileShape::Standard(name) => name.into(),
-            ProfileShape::Points(points) => {
-                Self::Array(points.iter().map(|point| point.to_vec().into()).collect())
-            }
-        }
-    }
-}
-
-impl TryFrom<Value> for ProfileShape {
-    type Error = &'static str;
-
-    fn try_from(value: Value) -> Result<Self, &'static str> {
-        match (value.as_str(), points(&value)) {
-            (Some(name), _) => Ok(Self::Standard(name.to_owned())),
-            (None, Some(points)) => Ok(Self::Points(points.into())),
-            _ => Err("expected the name of a profile or pairs [y, z]"),
-        }
-    }
-}
-
-impl JsonSchema for ProfileShape {
-    fn schema_name() -> Cow<'static, str> {
-        "ProfileShape".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let pair = json_schema!({
-            "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2
-        });
-        json_schema!({ "oneOf": [{ "type": "string" }, { "type": "array", "items": pair }] })
     }
 }
 

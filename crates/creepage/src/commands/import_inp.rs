@@ -32,8 +32,6 @@ pub struct ImportInpOptions {
 pub struct ImportedInp {
     /// The case files, by the numbers of their cases.
     pub cases: Vec<String>,
-    /// What they say in another way.
-    pub notes: Vec<String>,
 }
 
 /// Makes case files of half-spaces of an input file.
@@ -57,18 +55,15 @@ pub fn import_inp(options: &ImportInpOptions) -> Result<ImportedInp, Error> {
         return Err(Error::option(problem, "leave --case out, or give a number that it has"));
     }
     let folder = options.out.clone().unwrap_or_else(|| options.file.with_extension(""));
-    let (mut cases, mut notes) = (Vec::new(), Vec::new());
+    let mut cases = Vec::new();
     for case in all {
         let path = folder.join(format!("case-{}.toml", case.number));
         write(&folder, &path, &case.text)?;
         // the case is judged as any other, so that what is wrong is told now
         Case::load(&path, &[])?;
         cases.push(path.display().to_string());
-        notes.extend(case.notes);
     }
-    notes.sort();
-    notes.dedup();
-    Ok(ImportedInp { cases, notes })
+    Ok(ImportedInp { cases })
 }
 
 fn write(folder: &Path, path: &Path, text: &str) -> Result<(), Error> {

@@ -1,6 +1,5 @@
 //! The lines of an input file: numbers, angles, names, control digits.
 
-use super::Digit;
 use thiserror::Error;
 
 /// Why an input file is not read.
@@ -16,6 +15,26 @@ pub struct InpError {
 impl InpError {
     pub(super) fn new(line: usize, problem: impl Into<String>) -> Self {
         Self { line, problem: problem.into() }
+    }
+}
+
+/// A control digit: its name, line and value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Digit {
+    name: &'static str,
+    line: usize,
+    pub(super) value: u32,
+}
+
+impl Digit {
+    /// Refuses all values but those.
+    pub(super) fn one_of(&self, allowed: &[u32]) -> Result<(), InpError> {
+        if allowed.contains(&self.value) {
+            return Ok(());
+        }
+        let listed: Vec<String> = allowed.iter().map(u32::to_string).collect();
+        let why = format!("half-spaces in steady rolling need {}", listed.join(" or "));
+        Err(InpError::new(self.line, format!("{} = {}: {why}", self.name, self.value)))
     }
 }
 
@@ -50,6 +69,15 @@ impl Group {
             return Ok(());
         }
         Err(InpError::new(self.line, format!("{name} = {found}: {why}")))
+    }
+
+    /// Refuses an optional value at a place that is not zero.
+    pub(super) fn must_be_zero_at(&self, at: usize, name: &str) -> Result<(), InpError> {
+        let found = self.get(at);
+        if found == 0.0 {
+            return Ok(());
+        }
+        Err(InpError::new(self.line, format!("{name} = {found}: it must be 0, or left out")))
     }
 
     /// Refuses two values that differ.

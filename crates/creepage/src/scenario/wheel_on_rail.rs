@@ -264,22 +264,3 @@ fn one_plane(pair: &WheelOnRail, found: &PressedWheel) -> Result<(), WheelOnRail
         }),
     }
 }
-
-/// A spacing (m) on which the patch of a load (N) has about so many points on its mean diameter, and at least so many on its
-/// shorter axis, by Hertz's theory: the axes are nearly as the curvatures to the power of 2/3 (Greenwood 1997).
-///
-/// # Errors
-/// A position without contact.
-pub fn spacing(
-    bodies: &HalfSpaces,
-    pair: &WheelOnRail,
-    load: f64,
-    [mean, shorter]: [f64; 2],
-) -> Result<f64, WheelOnRailError> {
-    let first = pair.first_contact()?;
-    let half_axis = (hertz_approach(bodies, &first, load) / mean_curvature(&first)).sqrt();
-    let [along, sideways] = first.curvature;
-    let ratio = along / sideways.max(0.1 * along);
-    let narrower = libm::cbrt(ratio.min(1.0 / ratio));
-    Ok(2.0 * half_axis * (1.0 / mean).min(narrower / shorter))
-}

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Why a profile, or the position of a wheel on a rail, cannot be used. Places are those of the file, in mm.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum ProfileError {
-    /// A line that is no point.
+    /// A line that is no point, or says something that is not read.
     #[error("line {line}: {problem}")]
     Line {
         /// Line of the file, from 1.
@@ -59,16 +59,6 @@ pub enum ProfileError {
         found: ProfileBody,
         /// What it should be of.
         wanted: ProfileBody,
-    },
-    /// A feature of the file that is not read.
-    #[error("line {line}: {key} = {value} is not read")]
-    Feature {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Key of the file.
-        key: String,
-        /// Its value.
-        value: String,
     },
     /// Wheel and rail do not lie over one another.
     #[error(

@@ -92,8 +92,8 @@ impl Header {
             "shift.y" => self.shift[0] = number,
             "shift.z" => self.shift[1] = number,
             "rotate" | "approx.smooth" | "point.dist.min" if number != 0.0 => {
-                let (key, value) = (key.into(), value.into());
-                return Err(ProfileError::Feature { line, key, value });
+                let problem = format!("{key} = {value} is not read");
+                return Err(ProfileError::Line { line, problem });
             }
             _ => {}
         }
