@@ -66,7 +66,8 @@ impl Problem<'_> {
                 half_length: a,
                 half_width: (b > 0.0).then_some(b),
                 peak_pressure: self.hertz.p0,
-            },
+            }
+            .into(),
             offset,
             speed: SPEED,
             start: 0.0,

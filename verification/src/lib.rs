@@ -38,6 +38,7 @@ mod interface_patch;
 mod kalker;
 mod lamb;
 mod lysmer;
+mod manchester;
 mod mindlin;
 mod patch;
 mod perturbation_growth;

@@ -3,7 +3,7 @@
 use crate::{
     Problem, carter, cattaneo, collision, contact_examples, contact_turn, finite_body, free_block,
     grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz,
-    hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, mindlin, patch,
+    hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, manchester, mindlin, patch,
     perturbation_growth, rolling_dynamic, rolling_limits, rolling_memory, rolling_sideways,
     rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
     steady_rolling, unlike, waves,
@@ -240,6 +240,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "half-space-examples",
         about: "The same: forces of CONTACT's examples carter2d, tractcurv and fastsim",
         run: contact_examples::run,
+    },
+    Problem {
+        name: "manchester",
+        about: "S1002 wheels on UIC 60 rails, case A-2.2 of the Manchester benchmark: contact and forces of CONTACT",
+        run: manchester::run,
     },
     Problem {
         name: "mindlin",

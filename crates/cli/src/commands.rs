@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::{Parser, Subcommand};
 use creepage::{
     BenchOptions, CasesOptions, CheckOptions, CompareOptions, Error, ExportKOptions, FAILED,
-    ImportContactOptions, ImportKOptions, MeshOptions, PlotOptions, RenderOptions, ReportOptions,
-    RunOptions, SliderOptions, SweepFound, SweepOptions, VerifyOptions, ViewOptions,
+    ImportContactOptions, ImportInpOptions, ImportKOptions, MeshOptions, PlotOptions,
+    RenderOptions, ReportOptions, RunOptions, SliderOptions, SweepFound, SweepOptions,
+    VerifyOptions, ViewOptions,
 };
 use serde::Serialize;
 
@@ -131,6 +132,13 @@ pub enum Command {
         docs/ls-dyna.md. All others are refused by file and line."
     )]
     ImportK(ImportKOptions),
+    /// Make case files of half-spaces of an input file of CONTACT for a wheel on a rail (module 1)
+    #[command(
+        after_help = "Example:\n  creepage import-inp mbench_a22_left.inp --case 7 --out left\n  creepage run \
+        left/case-7.toml\n\nWhat half-spaces in steady rolling cannot say is refused by its name and line: \
+        docs/wheel-rail.md."
+    )]
+    ImportInp(ImportInpOptions),
     /// Write a case as an LS-DYNA keyword file: the same mesh, contact and drive for another program
     #[command(
         after_help = "Example:\n  creepage export-k cases/zhao-li/b-as-published.toml --out b.k\n\nThe keys, and the \
@@ -216,6 +224,9 @@ pub fn dispatch(line: &Line) -> Result<u8, Error> {
             done(args, &creepage::export_k(options, &mut Remarks(args))?, files::deck)
         }
         Command::ImportK(options) => done(args, &creepage::import_k(options)?, files::case),
+        Command::ImportInp(options) => {
+            done(args, &creepage::import_inp(options)?, files::inp_cases)
+        }
         Command::Schema => {
             report::print_json(&creepage::schema());
             Ok(0)

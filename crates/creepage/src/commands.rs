@@ -8,6 +8,7 @@ mod compare;
 mod error;
 mod export_k;
 mod import_contact;
+mod import_inp;
 mod import_k;
 mod interface_of_k;
 mod listener;
@@ -34,6 +35,7 @@ pub use error::{
 };
 pub use export_k::{ExportKOptions, ExportedK, export_k};
 pub use import_contact::{ImportedContact, import_contact};
+pub use import_inp::{ImportInpOptions, ImportedInp, import_inp};
 pub use import_k::{ImportKOptions, ImportedK, import_k};
 pub use interface_of_k::{InterfaceOfKOptions, interface_of_k};
 pub use listener::Listener;

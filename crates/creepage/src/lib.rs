@@ -101,6 +101,7 @@ pub mod chart;
 pub mod check;
 mod commands;
 pub mod compare;
+pub mod contact_inp;
 pub mod figures;
 pub mod ls_dyna;
 pub mod python;

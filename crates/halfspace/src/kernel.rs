@@ -288,7 +288,7 @@ const SIMPSON: usize = 128;
 
 /// The smallest length of a grid, even and with small factors, on which points up to `reach` apart meet without the
 /// others across the seam.
-fn even_length(reach: usize) -> usize {
+pub(crate) fn even_length(reach: usize) -> usize {
     let least = 2 * reach + 2;
     let smooth = |mut n: usize| {
         for f in [2, 3, 5] {

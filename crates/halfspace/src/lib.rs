@@ -13,7 +13,8 @@
 //! with the slip velocity `s` of the upper body against the lower one, and friction between `tau` and `s` of the same
 //! instant at every point of the patch ([`Rolling`]).
 //!
-//! Equal materials: shear does not move the normal problem, and the pressure is Hertz's.
+//! Equal materials: shear does not move the normal problem, and the pressure is Hertz's, or that of [`press`] for
+//! another gap.
 //!
 //! # Frame
 //! Both materials stand, and the patch travels in +x over them. The grid is periodic and belongs to the material: the
@@ -32,6 +33,8 @@ mod fault;
 mod history;
 mod kalker;
 mod kernel;
+mod normal;
+mod patch;
 mod plane;
 mod quadrature;
 mod return_mapping;
@@ -46,6 +49,8 @@ pub use ellipse::Ellipse;
 pub use fault::{Fault, FaultSetup};
 pub use kalker::{ClosedForms, c11};
 pub use kernel::{Extent, Kernel, KernelError};
+pub use normal::{Gap, PressError, Pressed, press};
+pub use patch::{Patch, PressureField};
 pub use quadrature::Quadrature;
 pub use rolling::{
     Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,

@@ -4,9 +4,9 @@
 mod tests;
 
 use crate::compliance::HalfSpaces;
-use crate::ellipse::Ellipse;
 use crate::history::{History, Symmetry};
 use crate::kernel::{Extent, Kernel, KernelError};
+use crate::patch::Patch;
 use crate::plane::Plane;
 use crate::return_mapping::{Friction, TrialPoint, is_non_unique};
 use friction::{NodeConditions, NodeFriction, NodeHistory};
@@ -43,7 +43,7 @@ pub struct Setup {
     /// Spacing of the grid (m).
     pub spacing: f64,
     /// The pressure.
-    pub patch: Ellipse,
+    pub patch: Patch,
     /// Distance of the line of points nearest to y = 0 from it, over the spacing.
     pub offset: f64,
     /// Rolling speed V (m/s).
@@ -240,8 +240,9 @@ impl Rolling {
     /// A patch of too few points, more weights than fit into memory.
     pub fn new(setup: Setup) -> Result<Self, RollingError> {
         let h = setup.spacing;
-        let Ellipse { half_length, half_width, .. } = setup.patch;
-        let narrow = 2.0 * half_width.map_or(half_length, |b| b.min(half_length)) / h;
+        let long = |[low, high]: [f64; 2]| high - low;
+        let (length, width) = (long(setup.patch.along()), setup.patch.across().map(long));
+        let narrow = width.map_or(length, |width| width.min(length)) / h;
         if narrow.is_nan() || narrow < 4.0 {
             return Err(RollingError::Coarse { points: narrow });
         }
@@ -254,13 +255,13 @@ impl Rolling {
             return Err(RollingError::Fast { speed: setup.speed, rayleigh: slowest });
         }
         // squares that the patch touches bear pressure, too
-        let reach = |half: f64| (2.0 * half / h).floor() as usize + 2;
+        let reach = |length: f64| (length / h).floor() as usize + 2;
         // the Rayleigh wave of the rear reaches a front that goes on
-        let diameter = 2.0 * half_width.map_or(half_length, |b| b.max(half_length))
-            / (1.0 - setup.speed / slowest);
+        let longest = width.map_or(length, |width| width.max(length));
+        let diameter = longest / (1.0 - setup.speed / slowest);
         let extent = |columns: usize| Extent {
             spacing: h,
-            reach: (reach(half_length) + SLACK + columns, half_width.map(reach)),
+            reach: (reach(length) + SLACK + columns, width.map(reach)),
             diameter,
         };
         // columns by which the patch moves on within its memory, and that of the two steps before
@@ -350,18 +351,16 @@ impl Rolling {
 
     /// Lists the points of the patch at its present place, and opens those that it has left.
     fn list_points(&mut self) {
-        let (h, ellipse) = (self.setup.spacing, self.setup.patch);
-        let a = ellipse.half_length;
+        let h = self.setup.spacing;
         self.points.clear();
         // squares that the patch touches: those of points up to half a spacing beyond it
-        let a = a + 0.5 * h;
-        let columns =
-            ((self.centre - a) / h).ceil() as i64..=((self.centre + a) / h).floor() as i64;
+        let [rear, front] = self.setup.patch.along();
+        let columns = ((self.centre + (rear - 0.5 * h)) / h).ceil() as i64
+            ..=((self.centre + (front + 0.5 * h)) / h).floor() as i64;
         let offset = self.setup.offset;
-        let lines = match ellipse.half_width {
-            Some(b) => {
-                let b = b / h + 0.5;
-                (-b - offset).ceil() as i64..=(b - offset).floor() as i64
+        let lines = match self.setup.patch.across() {
+            Some([right, left]) => {
+                (right / h - 0.5 - offset).ceil() as i64..=(left / h + 0.5 - offset).floor() as i64
             }
             None => 0..=0,
         };
@@ -370,7 +369,7 @@ impl Rolling {
             for i in columns.clone() {
                 let at = [i as f64 * h - self.centre, (j as f64 + offset) * h];
                 let factor = self.setup.pressure_factor.as_ref().map_or(1.0, |of| of([i, j]));
-                let pressure = factor * ellipse.mean_pressure(at, h);
+                let pressure = factor * self.setup.patch.mean_pressure(at, h);
                 if pressure > 0.0 {
                     let index = self.index(i, j);
                     self.work.field[index] = pressure;
@@ -514,7 +513,7 @@ impl Rolling {
     /// Area of a point (m^2); in plane strain its length (m).
     pub(crate) fn cell(&self) -> f64 {
         let h = self.setup.spacing;
-        if self.setup.patch.half_width.is_some() { h * h } else { h }
+        if self.setup.patch.across().is_some() { h * h } else { h }
     }
 
     /// Time of the last step (s).

@@ -57,7 +57,7 @@ pub fn steady(
     let mut rolling = Rolling::new(Setup {
         bodies,
         spacing,
-        patch,
+        patch: patch.into(),
         offset: 0.0,
         // without inertia and with a constant coefficient no result depends on the speed
         speed: 1.0,

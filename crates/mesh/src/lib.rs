@@ -24,6 +24,7 @@ mod near;
 mod outer_faces;
 mod padded;
 mod patch;
+pub mod profile;
 mod quality;
 mod ring;
 mod shells;

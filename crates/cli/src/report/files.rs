@@ -4,7 +4,9 @@ use std::fmt::Write;
 
 use creepage::check::Imported;
 use creepage::ls_dyna::Account;
-use creepage::{CasesFound, Drawn, ExportedK, ImportedContact, ImportedK, Reported, Viewed};
+use creepage::{
+    CasesFound, Drawn, ExportedK, ImportedContact, ImportedInp, ImportedK, Reported, Viewed,
+};
 
 /// The reference cases of `cases`, or the files of their copies.
 pub fn cases(CasesFound { cases, files }: &CasesFound) -> String {
@@ -62,6 +64,11 @@ pub fn case(ImportedK { case, elements, notes, cards, .. }: &ImportedK) -> Strin
     let case = case.display().to_string();
     let quoted = creepage::sweep::plan::quoted(&case);
     page + &format!("{case}: {elements} elements; creepage run {quoted}\n")
+}
+
+/// The case files of `import-inp`.
+pub fn inp_cases(ImportedInp { cases }: &ImportedInp) -> String {
+    cases.iter().map(|case| format!("{case}\n")).collect()
 }
 
 /// The keyword file of `export-k`, and what it says in another way than the case.

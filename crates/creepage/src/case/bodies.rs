@@ -2,8 +2,10 @@
 
 use crate::case::form::Form::{Number, Text};
 use crate::case::form::within;
-use crate::case::forms::Crown;
-use crate::case::key::{CROWN, DENSITY, FLAG, LENGTH, POISSON, SET, YOUNG, key, word};
+use crate::case::forms::{Crown, ProfileShape};
+use crate::case::key::{
+    ANGLE, CROWN, DENSITY, FLAG, LENGTH, POISSON, PROFILE, SET, YOUNG, key, word,
+};
 use crate::case::section::{is_default, section, words};
 
 section! {
@@ -16,7 +18,20 @@ section! {
         /// Width in y (m). Default 0.06.
         width: f64 = 0.06 => LENGTH.finite_elements_only();
         /// Transverse radius of the tread (m), or `"flat"` for a straight tread. Default `"flat"`.
-        crown_radius: Crown = Crown::Flat => CROWN;
+        crown_radius: Crown = Crown::Flat => CROWN.instead_of("disk.profile");
+        /// Transverse profile in the place of a crown, that of the left wheel: y away from the middle of the track, z down, z = 0
+        /// at `radius`. `"S1002"`, the path of a file (SIMPACK's .prw, or two columns in mm), or points in m. Default: none.
+        profile: Option<ProfileShape> => PROFILE.instead_of("disk.crown_radius");
+        /// y of the wheel's profile over that of the bar (m). Default 0: their origins lie over one another.
+        #[serde(skip_serializing_if = "is_default")]
+        lateral: f64
+            => key(Number(within(-1.0, 1.0)), "m", "give the shift in metres: 3e-3 for 3 mm").half_space_only();
+        /// Angle of the disk about z (rad): yaw. Default 0.
+        #[serde(skip_serializing_if = "is_default")]
+        yaw: f64 => ANGLE;
+        /// Angle of the disk about x (rad): roll. Default 0.
+        #[serde(skip_serializing_if = "is_default")]
+        roll: f64 => ANGLE;
         /// Height of the undeformed disk above touching at the start (m). Default 0. Above zero only
         /// with `preload.method = "none"`: a disk that does not touch cannot be preloaded.
         lift: f64
@@ -50,7 +65,13 @@ section! {
         /// Height from the clamped bottom to the top's apex (m). Default 0.07.
         height: f64 = 0.07 => LENGTH.finite_elements_only();
         /// Transverse radius of the top (m), or `"flat"`. Default 0.30.
-        crown_radius: Crown = Crown::Radius(0.30) => CROWN;
+        crown_radius: Crown = Crown::Radius(0.30) => CROWN.instead_of("bar.profile");
+        /// Transverse profile in the place of a crown, that of the left rail: y away from the middle of the track, z down.
+        /// `"60E1"`, the path of a file (SIMPACK's .prr, or two columns in mm), or points in m. Default: none.
+        profile: Option<ProfileShape> => PROFILE.instead_of("bar.crown_radius");
+        /// Angle about x (rad) by which a profile leans towards the middle of the track. Default 0.
+        #[serde(skip_serializing_if = "is_default")]
+        cant: f64 => ANGLE;
         /// x of the bar's rear end (m); rolling starts at x = 0. Default -0.09.
         start: f64 = -0.09
             => key(Number(within(-10.0, 10.0)), "m",

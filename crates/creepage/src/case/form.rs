@@ -3,6 +3,7 @@
 use std::fmt;
 
 use friction::Table;
+use mesh::profile::STANDARD_PROFILES;
 use toml::Value;
 
 use crate::case::value::{float, number, points, quoted, show, whole};
@@ -47,6 +48,9 @@ pub const STIFFNESS: [(&str, Range, &str); 3] = [
     ("stability", within(1e-4, 2.0), "-"),
 ];
 
+/// No point of a profile is farther from its origin (m).
+const LARGEST_PROFILE: f64 = 1.0;
+
 /// What kind of value a key holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {
@@ -73,6 +77,8 @@ pub enum Form {
     /// A curve: pairs of numbers in the first and in the second range, the first of them rising from 0. In a file it may
     /// be the path of another file.
     Curve(Range, Range),
+    /// The name of a standard's profile, or a list of points [y, z] in m. In a file it may be the path of another file.
+    Profile,
 }
 
 impl Form {
@@ -106,6 +112,9 @@ impl Form {
                 "a number {range}{unit}, or a list of pairs [time, number], times in s rising from 0"
             ),
             Self::Points(range) => format!("a list of pairs of numbers {range}{unit}"),
+            Self::Profile => {
+                "\"60E1\" (a rail), \"S1002\" (a wheel), the path of a file in mm, or a list of pairs [y, z] in m".into()
+            }
         }
     }
 
@@ -143,6 +152,9 @@ impl Form {
                 table.len() == 1 && STIFFNESS.iter().any(named)
             }
             (Self::Stiffness, _) => lies_in(&STIFFNESS[0].1),
+            (Self::Profile, Value::String(name)) => STANDARD_PROFILES.contains(&name.as_str()),
+            (Self::Profile, _) => points(value)
+                .is_some_and(|points| points.iter().flatten().all(|x| x.abs() <= LARGEST_PROFILE)),
             (Self::Points(range), _) => {
                 points(value).is_some_and(|points| points.iter().flatten().all(|x| range.holds(*x)))
             }

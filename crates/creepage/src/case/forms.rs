@@ -3,6 +3,9 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use mesh::profile::{
+    Profile, ProfileBody, ProfileError, STANDARD_PROFILES, rail_60e1, smoothed, wheel_s1002,
+};
 use output::FieldSpec;
 use output::layout::BODIES;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -65,6 +68,36 @@ impl JsonSchema for Crown {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         json_schema!({ "oneOf": [{ "type": "number" }, { "const": "flat" }] })
+    }
+}
+
+/// A transverse profile in the place of a crown.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum ProfileShape {
+    /// That of a standard, by its name.
+    Standard(String),
+    /// A smooth curve through points (y, z) (m), y away from the middle of the track and z down.
+    Points(Vec<[f64; 2]>),
+}
+
+impl ProfileShape {
+    /// The profile of a body.
+    ///
+    /// # Errors
+    /// Points that make no profile, or the name of the other body's.
+    pub fn profile(&self, body: ProfileBody) -> Result<Profile, ProfileError> {
+        let standard = |of: ProfileBody, profile: fn() -> Profile| match of == body {
+            true => Ok(profile()),
+            false => Err(ProfileError::Body { found: of, wanted: body }),
+        };
+        match self {
+            Self::Standard(name) if name == STANDARD_PROFILES[0] => {
+                standard(ProfileBody::Rail, rail_60e1)
+            }
+            Self::Standard(_) => standard(ProfileBody::Wheel, wheel_s1002),
+            Self::Points(points) => smoothed(points),
+        }
     }
 }
 

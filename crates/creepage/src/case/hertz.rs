@@ -6,6 +6,7 @@ use std::f64::consts::PI;
 
 use crate::case::schema::{BodyModel, Case};
 use contact::patch::PatchShape;
+use mesh::profile::ContactPoint;
 
 /// Patch and pressure of Hertz's elliptic contact, or of its line contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,15 +28,32 @@ impl Hertz {
     }
 }
 
-/// Sum of the curvatures across the rolling direction (1/m).
-fn across(case: &Case) -> f64 {
-    case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature()
+/// Sums of the curvatures along the rolling direction and across (1/m); with profiles those at the first point of contact,
+/// across no less than a hundredth of those along, and no numbers without contact.
+fn curvatures(case: &Case) -> [f64; 2] {
+    match case.wheel_on_rail() {
+        Ok(None) => {
+            let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+            [1.0 / case.disk.radius, across]
+        }
+        Ok(Some(pair)) => match pair.first_contact() {
+            Ok(ContactPoint { curvature: [along, across], .. }) => {
+                [along, across.max(FLATTEST * along)]
+            }
+            Err(_) => [f64::NAN; 2],
+        },
+        Err(_) => [f64::NAN; 2],
+    }
 }
+
+/// See [`curvatures`].
+const FLATTEST: f64 = 0.01;
 
 /// Shape of the patch of a case: a rectangle where both bodies are straight across, as in plane strain, else an
 /// ellipse.
 pub fn patch_shape(case: &Case) -> PatchShape {
-    if across(case) > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
+    let across = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
+    if case.has_profiles() || across > 0.0 { PatchShape::Ellipse } else { PatchShape::Rectangle }
 }
 
 /// Hertz's contact of a case's disk on its bar under `load.normal`. A line contact has the width of the narrower
@@ -43,8 +61,7 @@ pub fn patch_shape(case: &Case) -> PatchShape {
 pub fn hertz(case: &Case) -> Hertz {
     let compliance = |m: crate::case::schema::Material| (1.0 - m.poisson * m.poisson) / m.young;
     let modulus = 1.0 / (compliance(case.disk_material()) + compliance(case.bar_material()));
-    let along = 1.0 / case.disk.radius;
-    let across = across(case);
+    let [along, across] = curvatures(case);
     let load = case.load.normal;
     if patch_shape(case) == PatchShape::Rectangle {
         let width = match case.model {

@@ -139,13 +139,22 @@ pub(crate) const fn word(words: &'static [&'static str]) -> Key {
     key(Form::Word(words), "", "choose one of the words")
 }
 
-use Form::{Crown, Flag, Number, Stiffness, Text};
+use Form::{Crown, Flag, Number, Profile, Stiffness, Text};
 
 pub(crate) const FLAG: Key = key(Flag, "", "give true or false, without quotes");
 pub(crate) const LENGTH: Key =
     key(Number(within(1e-8, 10.0)), "m", "give the length in metres: 0.06 for 60 mm");
 pub(crate) const CROWN: Key =
     key(Crown(within(1e-8, 1e4)), "m", "give the radius in metres, or \"flat\"");
+pub(crate) const PROFILE: Key = key(
+    Profile,
+    "",
+    "give the name of a profile, the path of a file in millimetres, relative to this one, or points in metres: `profile = \"60E1\"`",
+)
+.half_space_only();
+pub(crate) const ANGLE: Key =
+    key(Number(within(-0.5, 0.5)), "rad", "give the angle in radians: 5e-3 for 5 mrad")
+        .half_space_only();
 pub(crate) const YOUNG: Key =
     key(Number(within(1e3, 1e13)), "Pa", "give Young's modulus in pascal: 210e9 for steel");
 pub(crate) const POISSON: Key = key(

@@ -51,6 +51,15 @@ pub(crate) fn drop_ramp(layers: &mut Layers) {
     }
 }
 
+/// Removes the crowns in whose place there are profiles.
+pub fn drop_crowns(table: &mut Table) {
+    for body in ["disk", "bar"] {
+        if get(table, &format!("{body}.profile")).is_some() {
+            remove(table, &format!("{body}.crown_radius"));
+        }
+    }
+}
+
 /// Removes from the keys of a case those that have no meaning for its model, and sections that then are empty.
 pub fn keep_meaningful(table: &mut Table, model: BodyModel) {
     for key in KEYS.iter().filter(|key| !key.has_meaning_for(model)) {

@@ -10,12 +10,12 @@ use toml::Table;
 use crate::case::error::CaseError;
 use crate::case::file::CaseFile;
 use crate::case::layers::Layers;
-use crate::case::left_out::{drop_ramp, keep_meaningful, leave_out};
+use crate::case::left_out::{drop_crowns, drop_ramp, keep_meaningful, leave_out};
 use crate::case::schema::{BodyModel, Case, Checkpoint, DriveMode, Guards, Meshing};
 use crate::case::units::with_units;
 use crate::case::value::get;
 use crate::case::written::Written;
-use crate::case::{check, mesh_file, name, table, validation};
+use crate::case::{check, mesh_file, name, profile_file, table, validation};
 
 /// A case: a file, and what is laid over it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -98,6 +98,7 @@ impl Case {
         let mut table = Table::try_from(self).unwrap_or_default();
         if self.model == BodyModel::HalfSpace {
             keep_meaningful(&mut table, self.model);
+            drop_crowns(&mut table);
         }
         table
     }
@@ -128,6 +129,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     let left_out = leave_out(&mut layers)?;
     let files = layers.files();
     table::inline(&mut layers)?;
+    profile_file::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
     drop_ramp(&mut layers);
     let Layers { mut table, places } = layers;

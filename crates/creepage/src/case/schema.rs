@@ -9,7 +9,7 @@ pub use crate::case::bodies::{
 };
 use crate::case::form::Form::{Count, Number, OverTime, Points, Text, Words};
 use crate::case::form::{none_or_within, within};
-pub use crate::case::forms::{Creepage, Crown, StressField, StressOutput};
+pub use crate::case::forms::{Creepage, Crown, ProfileShape, StressField, StressOutput};
 use crate::case::key::{FLAG, INTERVAL, OF_A_HUNDRED, OF_SPEED, PENALTY, key, needed, word};
 use crate::case::section::{is_default, section, words};
 use crate::case::written::Written;

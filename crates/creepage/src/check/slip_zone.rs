@@ -105,9 +105,7 @@ impl SlipZone {
         }
         let span = 0.1 * line.transit();
         let (about, others) = running_means(&line.times, weights, slip, span);
-        let over = |records: &[(usize, f64)]| {
-            Sums::over(records, &places, slip, &about, &others)
-        };
+        let over = |records: &[(usize, f64)]| Sums::over(records, &places, slip, &about, &others);
         let whole: Vec<(usize, f64)> = weights.iter().copied().enumerate().collect();
         let sums = over(&whole);
         let [mean, fluctuation, share] = sums.values();

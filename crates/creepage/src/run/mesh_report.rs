@@ -10,6 +10,7 @@ use crate::run::folder::default_folder;
 use crate::run::mesh_file::write_mesh;
 use crate::scenario::memory::BYTES_PER_ELEMENT;
 use crate::scenario::numbers::numbers;
+use crate::scenario::wheel_on_rail::PositionReport;
 use output::summary::Numbers;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -31,6 +32,9 @@ pub struct MeshReport {
     pub bodies: Vec<BodyReport>,
     /// What was chosen or corrected, and what to expect of falling friction.
     pub notes: Vec<String>,
+    /// Where a wheel with profiles touches the rail, on half-spaces, which have no mesh.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub position: Option<PositionReport>,
     /// The dimensionless numbers of contact and friction.
     pub numbers: Numbers,
     /// Shapes of the elements.
@@ -106,6 +110,11 @@ pub struct Estimate {
 /// # Errors
 /// A mesh that cannot be made or read, or that this machine has no memory for; a file that cannot be written.
 pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunError> {
+    if out.is_none()
+        && let Some(found) = position_report(case)?
+    {
+        return Ok(found);
+    }
     let model = crate::scenario::model(case)?;
     let mut solid = model.solid(case)?;
     let quality = mesh::quality(&model.mesh);
@@ -132,6 +141,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
     Ok(MeshReport {
         name: case.name.clone(),
         symmetry: case.mesh.symmetry,
+        position: None,
         elements,
         fully_integrated: model.fully_integrated(),
         nodes,
@@ -166,4 +176,18 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
             disk: Disk::of(case, &model, steps).estimate(&default_folder(case)),
         },
     })
+}
+
+/// What there is to report of half-spaces with profiles.
+fn position_report(case: &Case) -> Result<Option<MeshReport>, RunError> {
+    if !case.is_half_space() {
+        return Ok(None);
+    }
+    let position = crate::scenario::position(case)?;
+    Ok(position.map(|position| MeshReport {
+        name: case.name.clone(),
+        notes: position.lines().into(),
+        position: Some(position),
+        ..MeshReport::default()
+    }))
 }

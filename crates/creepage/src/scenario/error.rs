@@ -41,6 +41,21 @@ pub enum ScenarioError {
         /// The coefficient at rest times the load (N).
         bound: f64,
     },
+    /// The wheel cannot be pressed on the rail.
+    #[error(transparent)]
+    #[diagnostic(help(
+        "change disk.lateral, disk.yaw or load.normal, the profiles, or mesh.zone.size"
+    ))]
+    WheelOnRail(#[from] crate::scenario::wheel_on_rail::WheelOnRailError),
+    /// A patch of which points would not be recorded.
+    #[error("the patch reaches {reach_mm:.2} mm across, beyond the fine zone of {width_mm:.2} mm")]
+    #[diagnostic(help("give a mesh.zone.width of more than twice that"))]
+    Zone {
+        /// How far it reaches from the point of reference (mm).
+        reach_mm: f64,
+        /// `mesh.zone.width` (mm).
+        width_mm: f64,
+    },
     /// The half-spaces cannot be set up.
     #[error(transparent)]
     #[diagnostic(help("{}", match .0 {

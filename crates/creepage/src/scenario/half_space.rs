@@ -6,9 +6,13 @@ use crate::case::schema::{Case, Creepage, DriveMode};
 use crate::scenario::draw::{draw, seed};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::numbers::{DimensionlessNumbers, three};
+use crate::scenario::wheel_on_rail::{PositionReport, PressedWheel, WheelOnRailError, press_wheel};
 use dynamics::{interpolated, smoothstep};
 use friction::OwnLaw;
-use halfspace::{Along, Ellipse, HalfSpaces, Inertia, PressureFactor, Rigid, Rolling, Setup};
+use halfspace::{
+    Along, Ellipse, HalfSpaces, Inertia, Patch, PressureFactor, Rigid, Rolling, Setup,
+};
+use mesh::profile::RigidSlip;
 use std::sync::Arc;
 
 /// Two half-spaces at rest under the pressure of Hertz, and what a run needs of them.
@@ -23,6 +27,10 @@ pub struct HalfSpaceModel {
     pub numbers: DimensionlessNumbers,
     /// Width (m) that forces per width are multiplied with: one in three dimensions, where they are forces.
     pub width: f64,
+    /// What the position of the wheel makes it slip, beside what is prescribed.
+    pub motion: RigidSlip,
+    /// The wheel with profiles, pressed on the rail.
+    pub position: Option<PositionReport>,
     /// Remarks for the user, one sentence each.
     pub warnings: Vec<String>,
 }
@@ -51,13 +59,18 @@ pub fn half_space(
     let hertz = hertz(case);
     let line = case.mesh.plane_strain;
     let steps = (case.duration() / case.step().under(case.wave_time())).ceil().max(1.0);
+    let ellipse = Ellipse {
+        half_length: hertz.a,
+        half_width: (!line).then_some(hertz.b),
+        peak_pressure: hertz.p0,
+    };
+    let (wheel, motion) = wheel(case, &bodies)?;
     let setup = Setup {
         bodies,
         spacing: case.mesh.zone.size,
-        patch: Ellipse {
-            half_length: hertz.a,
-            half_width: (!line).then_some(hertz.b),
-            peak_pressure: hertz.p0,
+        patch: match &wheel {
+            Some(wheel) => Patch::Field(wheel.pressed.field.trimmed()),
+            None => ellipse.into(),
         },
         offset: 0.0,
         speed: case.drive.speed,
@@ -67,7 +80,7 @@ pub fn half_space(
         law: friction_law::law(case, law)?.into(),
         pressure_factor: pressure_factor(case),
     };
-    if let Along::Force(force) = drive(case, f64::INFINITY, 1.0).along {
+    if let Along::Force(force) = drive(case, &motion, f64::INFINITY, 1.0).along {
         let bound = setup.law.mu_static() * case.load.normal;
         if force.abs() >= bound {
             return Err(ScenarioError::Torque { force: force.abs(), bound });
@@ -82,8 +95,41 @@ pub fn half_space(
         rolling: Rolling::new(setup)?,
         steps: steps as u64,
         points: points(case),
+        motion,
+        position: wheel.map(|wheel| PositionReport::new(&wheel, &motion)),
         width: if line { case.mesh.zone.width } else { 1.0 },
     })
+}
+
+/// Where the wheel of a case with half-spaces touches the rail; none without profiles.
+///
+/// # Errors
+/// A position without contact, or with a contact that half-spaces cannot have.
+pub fn position(case: &Case) -> Result<Option<PositionReport>, ScenarioError> {
+    let material = case.disk_material();
+    let bodies = HalfSpaces::new(material.young, material.poisson, material.density);
+    let (wheel, motion) = wheel(case, &bodies)?;
+    Ok(wheel.map(|wheel| PositionReport::new(&wheel, &motion)))
+}
+
+/// The wheel of a case with profiles, pressed on the rail, and what its position makes it slip.
+fn wheel(
+    case: &Case,
+    bodies: &HalfSpaces,
+) -> Result<(Option<PressedWheel>, RigidSlip), ScenarioError> {
+    let Some(pair) = case.wheel_on_rail().map_err(WheelOnRailError::from)? else {
+        return Ok((None, RigidSlip::default()));
+    };
+    let wheel = press_wheel(bodies, &pair, case.load.normal, case.mesh.zone.size)?;
+    let field = wheel.pressed.field.trimmed();
+    let lines = [field.first[1], field.first[1] + field.points[1] as i64 - 1];
+    let reach = lines.map(|line| line.unsigned_abs() as f64 * field.spacing);
+    let (reach, width) = (reach[0].max(reach[1]), case.mesh.zone.width);
+    if reach > 0.5 * width + field.spacing {
+        return Err(ScenarioError::Zone { reach_mm: 1e3 * reach, width_mm: 1e3 * width });
+    }
+    let motion = pair.rigid_slip(&wheel.middle, 1.0 / case.disk.radius);
+    Ok((Some(wheel), motion))
 }
 
 /// The factor of the pressure at a point of the material by which the members of an ensemble differ.
@@ -95,21 +141,28 @@ fn pressure_factor(case: &Case) -> Option<PressureFactor> {
 }
 
 /// What drives the upper body at the time `time` (s); torque over the radius is the force of half-spaces, which have no
-/// inertia as a whole.
-pub fn drive(case: &Case, time: f64, width: f64) -> Rigid {
+/// inertia as a whole. What the position of a wheel makes it slip is added to what is prescribed.
+pub fn drive(case: &Case, motion: &RigidSlip, time: f64, width: f64) -> Rigid {
     let ramp = smoothstep(time, case.drive.ramp());
     let along = match case.drive.mode {
-        DriveMode::Creepage => Along::Creepage(match &case.drive.creepage {
-            Some(Creepage::Table(points)) => interpolated(points, time),
-            Some(Creepage::Number(creepage)) => ramp * creepage,
-            None => 0.0,
-        }),
+        DriveMode::Creepage => Along::Creepage(
+            ramp * motion.longitudinal
+                + match &case.drive.creepage {
+                    Some(Creepage::Table(points)) => interpolated(points, time),
+                    Some(Creepage::Number(creepage)) => ramp * creepage,
+                    None => 0.0,
+                },
+        ),
         DriveMode::Torque => {
             let torque = case.drive.torque.unwrap_or(0.0);
             Along::Force(ramp * torque / case.disk.radius / width)
         }
     };
-    Rigid { along, lateral: ramp * case.drive.lateral_creepage, spin: ramp * case.drive.spin }
+    Rigid {
+        along,
+        lateral: ramp * (case.drive.lateral_creepage + motion.lateral),
+        spin: ramp * (case.drive.spin + motion.spin),
+    }
 }
 
 /// The points of the fine zone.
@@ -131,7 +184,7 @@ fn points(case: &Case) -> SurfacePoints {
 fn interface(setup: &Setup) -> friction::Interface {
     let bodies = &setup.bodies;
     friction::Interface {
-        pressure: setup.patch.peak_pressure,
+        pressure: setup.patch.peak_pressure(),
         impedance: match setup.inertia {
             Inertia::Dynamic => 0.5 * bodies.shear_modulus / bodies.shear_speed,
             Inertia::Static => f64::NAN,

@@ -155,10 +155,7 @@ const COLUMNS: [(&str, Source); 63] = [
     ("slip_zone_mean", S::Slip(SlipQuantity::Mean)),
     ("slip_zone_fluctuation", S::Slip(SlipQuantity::Fluctuation)),
     ("slip_zone_fluctuating_share", S::Slip(SlipQuantity::FluctuatingShare)),
-    (
-        "slip_zone_fluctuating_share_of_elements",
-        S::Slip(SlipQuantity::FluctuatingShareOfElements),
-    ),
+    ("slip_zone_fluctuating_share_of_elements", S::Slip(SlipQuantity::FluctuatingShareOfElements)),
     ("slip_zone_largest", S::Slip(SlipQuantity::Largest)),
     ("slip_zone_correlation_length", S::Slip(SlipQuantity::CorrelationLength)),
     ("slip_zone_correlation_time", S::Slip(SlipQuantity::CorrelationTime)),

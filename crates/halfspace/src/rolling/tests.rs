@@ -1,4 +1,5 @@
 use super::*;
+use crate::ellipse::Ellipse;
 use friction::{Coulomb, Exponential, Implicit, Memory, Remembering};
 
 const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
@@ -9,7 +10,7 @@ fn setup(width: Option<f64>, law: Arc<dyn NodeFriction>) -> Setup {
     Setup {
         bodies,
         spacing,
-        patch: Ellipse { half_length: 6e-3, half_width: width, peak_pressure: 1e9 },
+        patch: Ellipse { half_length: 6e-3, half_width: width, peak_pressure: 1e9 }.into(),
         offset: 0.0,
         speed: 40.0,
         start: 0.0,
@@ -127,7 +128,7 @@ fn a_shift_in_one_step_gives_the_force_of_mindlin_and_of_many_steps() {
     let (a, mu, poisson, share) = (6e-3, 0.3, 0.3, 0.7);
     let force = |steps: i32| {
         let base = setup(Some(a), Arc::new(Coulomb { mu }));
-        let load = 2.0 / 3.0 * std::f64::consts::PI * a * a * base.patch.peak_pressure;
+        let load = 2.0 / 3.0 * std::f64::consts::PI * a * a * base.patch.peak_pressure();
         let rigidity = 8.0 * base.bodies.shear_modulus * a / (3.0 * mu * load * (2.0 - poisson));
         // Mindlin (1949): Johnson 1985, Eq. (7.42)
         let shift = (1.0 - f64::powf(1.0 - share, 2.0 / 3.0)) / rigidity;

@@ -102,6 +102,13 @@ fn the_resolved_case_loads_to_itself() {
     let slice = ["mesh.plane_strain=true", "bar.crown_radius=flat", "load.normal=1e5"];
     for sets in [
         &[][..],
+        &[
+            "disk.profile=S1002",
+            "bar.profile=60E1",
+            "bar.cant=0.025",
+            "disk.yaw=5e-3",
+            "mesh.zone.width=0.05",
+        ],
         &["half_space.inertia=false", "drive.lateral_creepage=1e-3", "drive.spin=-0.2"],
         &["mesh.window=0.05", "friction.law=exponential", "friction.mode=exact"],
         &["friction.law=exponential", "friction.memory.distance=1e-5", "time.step=1e-8"],
@@ -191,4 +198,48 @@ fn the_path_stays_in_the_zone_and_no_bar_limits_it() {
     half_space(&["time.roll=0.9", "mesh.window=0.04"]).unwrap();
     let unknown = refusal(half_space(&["model=quarter-space"]));
     assert!(unknown.contains("\"half-space\""), "{unknown}");
+}
+
+#[test]
+fn profiles_take_the_place_of_crowns_and_the_patch_is_that_of_their_contact() {
+    let wide = "mesh.zone.width=0.05";
+    let case =
+        half_space(&["disk.profile=S1002", "bar.profile=60E1", "bar.cant=0.025", wide]).unwrap();
+    let table = case.table();
+    assert!(crate::case::value::get(&table, "disk.crown_radius").is_none());
+    let point = case.wheel_on_rail().unwrap().unwrap().first_contact().unwrap();
+    let [along, across] = point.curvature;
+    // the ratio of the axes is nearly that of the curvatures to the power of 2/3
+    let patch = hertz(&case);
+    let ratio = libm::pow(across / along, 2.0 / 3.0);
+    assert!((patch.a / patch.b / ratio - 1.0).abs() < 0.05, "{patch:?} {ratio}");
+    // a crown as a profile is the crown
+    let crowned = half_space(&[]).unwrap();
+    let half = 0.03;
+    let arc = |i: i32| {
+        let y = half * f64::from(i) / 100.0;
+        format!("[{y:?}, {:?}]", 0.3 - (0.09 - y * y).sqrt())
+    };
+    let arc: Vec<String> = (-100..=100).map(arc).collect();
+    let arced = half_space(&[&format!("bar.profile=[{}]", arc.join(", "))]).unwrap();
+    let (patch, same) = (hertz(&crowned), hertz(&arced));
+    assert!((same.a / patch.a - 1.0).abs() < 2e-3 && (same.b / patch.b - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn bad_profiles_and_positions_are_refused_with_the_reason() {
+    for (sets, words) in [
+        (&["disk.profile=60E1"][..], "are wheel and rail swapped?"),
+        (&["disk.lateral=1e-3"], "need a profile"),
+        (&["bar.profile=60E1", "disk.lateral=0.5"], "there is no contact at this position"),
+        (&["bar.profile=none.prr"], "none.prr"),
+        (&["bar.profile=[[0.0, 0.0], [0.01, 0.0]]"], "too short: 2 points"),
+        (&["bar.profile=60E1", "mesh.plane_strain=true"], "without profiles"),
+    ] {
+        refused(half_space(sets), &[words]);
+    }
+    refused(set(&["disk.profile=S1002"]), &["has no meaning for model = \"finite-elements\""]);
+    let both =
+        format!("model = \"half-space\"\n{SHORT}[bar]\nprofile = \"60E1\"\ncrown_radius = 0.3\n");
+    refused(read(&both), &["bar.profile and bar.crown_radius are both given"]);
 }

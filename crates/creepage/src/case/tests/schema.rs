@@ -82,7 +82,7 @@ fn ranges(form: Form) -> Vec<Range> {
         Form::Count(low, high) => {
             vec![Range { low: low as f64, high: high as f64, or_zero: false }]
         }
-        Form::Flag | Form::Word(_) | Form::Words(_) | Form::Text => Vec::new(),
+        Form::Flag | Form::Word(_) | Form::Words(_) | Form::Text | Form::Profile => Vec::new(),
     }
 }
 
@@ -113,8 +113,16 @@ fn every_number_has_a_finite_range_that_holds_no_number_too_small_to_matter() {
         "output.window[].from",
         "preload.seed",
     ];
-    const PLACES: [&str; 4] =
-        ["bar.start", "mesh.zone.start", "output.probes.bar", "output.probes.disk"];
+    const PLACES: [&str; 8] = [
+        "bar.cant",
+        "disk.lateral",
+        "disk.roll",
+        "disk.yaw",
+        "bar.start",
+        "mesh.zone.start",
+        "output.probes.bar",
+        "output.probes.disk",
+    ];
     let mut numbers = 0;
     for key in KEYS.iter() {
         for Range { low, high, or_zero } in ranges(key.form) {

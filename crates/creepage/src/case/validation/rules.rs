@@ -6,12 +6,13 @@ use super::Findings;
 use crate::case::key::Key;
 use crate::case::keys::KEYS;
 use crate::case::schema::Case;
-use crate::case::value::{get, quoted};
+use crate::case::value::{get, join, quoted, remove};
 
 /// Checks each key against those that it depends on or stands for.
 pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
     // A case holds nothing that TOML cannot.
-    let given = Table::try_from(case).unwrap_or_default();
+    let mut given = Table::try_from(case).unwrap_or_default();
+    drop_default_crowns(&mut given, found);
     for key in KEYS.iter() {
         let is_given = get(&given, key.path).is_some();
         let rival = key.instead_of.filter(|other| is_given && get(&given, other).is_some());
@@ -29,6 +30,17 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
                 check_use(key, is_given, (other, words), get(&given, other), found);
             }
             (None, None) => {}
+        }
+    }
+}
+
+/// Removes the crowns that no file gives, where there is a profile in their place.
+fn drop_default_crowns(given: &mut Table, found: &Findings<'_>) {
+    for [profile, crown] in
+        ["disk", "bar"].map(|body| ["profile", "crown_radius"].map(|key| join(body, key)))
+    {
+        if get(given, &profile).is_some() && found.places.origins.get(crown.as_str()).is_none() {
+            remove(given, &crown);
         }
     }
 }

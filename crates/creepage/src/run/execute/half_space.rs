@@ -112,6 +112,7 @@ fn tell(model: &HalfSpaceModel, log: &mut Log) -> Result<(), NotWritten> {
             100.0 * faded
         ))?;
     }
+    model.position.iter().flat_map(|at| at.lines()).try_for_each(|line| log.say(&line))?;
     log.say(&format!("step: {:.4e} s; {} steps", model.rolling.step_length(), model.steps))?;
     model.numbers.line().iter().try_for_each(|line| log.say(line))
 }
@@ -154,7 +155,12 @@ impl UnderWay<'_> {
                 return Ok((Status::Interrupted, None));
             }
             let time = (n + 1) as f64 * dt;
-            let sums = self.model.rolling.step(drive(self.case, time, self.model.width));
+            let sums = self.model.rolling.step(drive(
+                self.case,
+                &self.model.motion,
+                time,
+                self.model.width,
+            ));
             if let Some(failure) = options.law.as_ref().and_then(|law| law.failure()) {
                 let diagnosis = format!("the friction law failed at step {}: {failure}", n + 1);
                 return Ok((Status::Failed, Some(diagnosis)));
