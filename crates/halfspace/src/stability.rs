@@ -26,7 +26,7 @@ const CELLS: usize = 40;
 /// Steady rolling of two equal half-spaces in line contact, or the strip through the centre of an ellipse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LineRolling {
-    /// Shear modulus `G* = G/(1 - nu)` (Pa).
+    /// Shear modulus `G* = G/(1 - nu)` (Pa); G of slip across the line.
     pub modulus: f64,
     /// Half length a of the patch (m).
     pub half_length: f64,
