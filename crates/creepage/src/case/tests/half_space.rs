@@ -241,5 +241,5 @@ fn bad_profiles_and_positions_are_refused_with_the_reason() {
     refused(set(&["disk.profile=S1002"]), &["has no meaning for model = \"finite-elements\""]);
     let both =
         format!("model = \"half-space\"\n{SHORT}[bar]\nprofile = \"60E1\"\ncrown_radius = 0.3\n");
-    refused(read(&both), &["bar.profile and bar.crown_radius are both given"]);
+    refused(read(&both), &["bar.crown_radius and bar.profile are both given"]);
 }
