@@ -55,9 +55,9 @@ fn a_wheel_on_a_rail_keeps_its_position_and_its_creepage() {
     assert!((value(case, "drive.creepage") - (4.3451503 * 0.46 / 2.0 - 1.0)).abs() < 1e-12);
     assert_eq!(value(case, "disk.yaw"), 0.0072);
     assert_eq!(value(case, "disk.roll"), 0.0001803);
-    // the wheels are 1500 mm apart, the rails' gauge points at 14 mm depth 1435 mm: 36 mm from the apex
+    // the wheels are 1500 mm apart, the rails' gauge points 1435 mm: at 14 mm depth 35.98 mm from the apex
     let lateral = value(case, "disk.lateral");
-    let expected = 0.750 * libm::cos(0.0072) * libm::cos(0.0001803) + 3e-3 - (0.7175 + 0.036);
+    let expected = 0.750 * libm::cos(0.0072) * libm::cos(0.0001803) + 3e-3 - (0.7175 + 0.03598);
     assert!((lateral - expected).abs() < 0.02e-3, "{lateral} {expected}");
     let case = crate::case::Case::from_text(&case.text, Path::new("x.toml"), &[]).unwrap();
     let point = case.wheel_on_rail().unwrap().unwrap().first_contact().unwrap();

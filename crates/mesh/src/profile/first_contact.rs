@@ -337,7 +337,7 @@ fn sub(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::profile::{rail_60e1, wheel_s1002};
+    use crate::profile::{rail_head, wheel_s1002};
 
     fn on_crown(wheel: Profile) -> WheelOnRail {
         let rail = Profile::crown(0.3, 0.035);
@@ -419,14 +419,14 @@ mod tests {
     fn the_standards_touch_on_the_tread_and_bad_positions_say_why() {
         let pair = WheelOnRail {
             wheel: wheel_s1002(),
-            rail: rail_60e1(),
+            // the rail of the Manchester benchmark, in the middle of its track
+            rail: rail_head([10.5e-3, 25.988e-3]),
             cant: 0.025,
-            // in the middle of a track of 1435 mm
-            lateral: -3.1e-3,
+            lateral: -3.03e-3,
             ..on_crown(Profile::cone(0.0, 0.03))
         };
         let point = pair.first_contact().unwrap();
-        // CONTACT, case of the Manchester benchmark, 1: its rail is 0.04 mm from the standard
+        // CONTACT, case 1 of
         let middle = pair.centre_of_overlap(&point, 15.96e-6).unwrap();
         assert!((middle.angle - 0.029).abs() < 1e-3, "{middle:?}");
         assert_eq!(pair.overlaps(&point, 2e-5).len(), 1);
