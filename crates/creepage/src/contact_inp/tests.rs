@@ -63,7 +63,7 @@ fn a_wheel_on_a_rail_keeps_its_position_and_its_creepage() {
     let point = case.wheel_on_rail().unwrap().unwrap().first_contact().unwrap();
     assert!(point.angle > 0.0 && point.rolling_radius > 0.46);
     for (from, to, words) in [
-        (" 2000. 0.0 ", " 2000. 5.0 ", "line 17: VY_WS = 5"),
+        (" 2000. 0.0 ", " 2000. 5.0 ", "line 16: VY_WS = 5"),
         ("   14.0     0 ", "   14.0     1 ", "line 10: GAUGSQ = 1"),
         ("'rail.prr'   0 ", "'rail.prr'   1 ", "line 11: MIRRORY = 1"),
         (" 1203100 ", " 5203100 ", "line 3: CONFIG = 5"),

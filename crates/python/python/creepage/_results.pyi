@@ -451,7 +451,7 @@ ScaleUsed = TypedDict(
 Sides = dict[str, Any] | dict[str, OnView]
 
 # A statistic of slip over the slip zone.
-SlipQuantity = Literal["mean", "fluctuation", "fluctuating_share", "largest", "correlation_length", "correlation_time", "mean_wavenumber", "mean_frequency"]
+SlipQuantity = Literal["mean", "fluctuation", "fluctuating_share", "fluctuating_share_of_elements", "largest", "correlation_length", "correlation_time", "mean_wavenumber", "mean_frequency"]
 
 # The value of a statistic of slip.
 SlipStatistic = TypedDict(
@@ -478,6 +478,7 @@ SlipZoneMeasured = TypedDict(
         "mean": NotRequired[SlipStatistic],
         "fluctuation": NotRequired[SlipStatistic],
         "fluctuating_share": NotRequired[SlipStatistic],
+        "fluctuating_share_of_elements": NotRequired[SlipStatistic],
         "largest": NotRequired[SlipStatistic],
         "correlation_length": NotRequired[SlipStatistic],
         "correlation_time": NotRequired[SlipStatistic],
