@@ -118,7 +118,10 @@ pub fn press(bodies: &HalfSpaces, gap: &Gap, load: f64) -> Result<Pressed, Press
 
 fn pressed(gap: &Gap, pressure: Vec<f64>, approach: f64) -> Pressed {
     let [nx, ny] = gap.points;
-    let at_end = |i: usize| i % nx == 0 || i % nx == nx - 1 || i / nx == 0 || i / nx == ny - 1;
+    let at_end = |i: usize| {
+        let (column, line) = (i % nx, i / nx);
+        [0, nx - 1].contains(&column) || [0, ny - 1].contains(&line)
+    };
     let cut = (0..pressure.len()).any(|i| pressure[i] > 0.0 && at_end(i));
     let Gap { spacing, first, points, .. } = *gap;
     Pressed { field: PressureField { spacing, first, points, pressure }, approach, cut }

@@ -75,7 +75,7 @@ fn directed_modulus(case: &Case, along: f64) -> f64 {
     });
     let across = (one[0] + other[0]) / (one[1] + other[1]);
     let lateral = case.drive.lateral_creepage;
-    match along.hypot(lateral) {
+    match libm::hypot(along, lateral) {
         0.0 => 1.0,
         size => 1.0 / ((along / size).powi(2) + (lateral / size).powi(2) / across),
     }
@@ -89,7 +89,7 @@ fn slipping(case: &Case, mu: f64, half_length: f64) -> [f64; 2] {
         DriveMode::Creepage => {
             let along = case.drive.creepage.as_ref().map_or(0.0, Creepage::largest);
             let directed = directed_modulus(case, along);
-            let creepage = along.hypot(case.drive.lateral_creepage);
+            let creepage = libm::hypot(along, case.drive.lateral_creepage);
             (creepage * directed * case.disk.radius / (mu * half_length), directed)
         }
         DriveMode::Torque => {

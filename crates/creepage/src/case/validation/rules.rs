@@ -39,7 +39,7 @@ fn drop_default_crowns(given: &mut Table, found: &Findings<'_>) {
     for [profile, crown] in
         ["disk", "bar"].map(|body| ["profile", "crown_radius"].map(|key| join(body, key)))
     {
-        if get(given, &profile).is_some() && found.places.origins.get(crown.as_str()).is_none() {
+        if get(given, &profile).is_some() && !found.places.origins.contains_key(crown.as_str()) {
             remove(given, &crown);
         }
     }
