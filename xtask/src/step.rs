@@ -114,17 +114,24 @@ pub fn built(root: &Path, name: &str) -> Result<PathBuf, String> {
     Ok(target(root).join("release").join(format!("{name}{}", env::consts::EXE_SUFFIX)))
 }
 
-/// Which third of long checks the continuous integration makes: 0, 1 or 2, by the last commit. `None` elsewhere, where
-/// all are made.
-pub fn sample(root: &Path) -> Option<usize> {
+/// Of how many parts of the long tests and of the verification problems the continuous integration takes one.
+pub const PARTS: usize = 6;
+
+/// Which part that is, by the last commit; `None` elsewhere, where all are made.
+pub fn part(root: &Path) -> Option<usize> {
     env::var_os("CI")?;
     let commit = output(Command::new("git").args(["rev-parse", "HEAD"]).current_dir(root));
-    Some(commit.unwrap_or_default().bytes().map(usize::from).sum::<usize>() % 3)
+    Some(commit.unwrap_or_default().bytes().map(usize::from).sum::<usize>() % PARTS)
 }
 
-/// The same for programs of tests, which read it from this variable: `K/3`.
+/// Which third of other long checks: 0, 1 or 2.
+pub fn sample(root: &Path) -> Option<usize> {
+    part(root).map(|part| part % 3)
+}
+
+/// The part for programs of tests, which read it from this variable: `K/N`.
 pub fn sample_variable(root: &Path) -> Option<(&'static str, String)> {
-    sample(root).map(|third| ("CREEPAGE_SAMPLE", format!("{third}/3")))
+    part(root).map(|part| ("CREEPAGE_SAMPLE", format!("{part}/{PARTS}")))
 }
 
 /// Runs a command to its end.

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use crate::soak::{Trial, sample_of_kills, soak};
 use crate::step::{
-    Ended, Outcome, Step, built, cargo, done, missing, output, python, root, sample,
+    Ended, Outcome, PARTS, Step, built, cargo, done, missing, output, part, python, root, sample,
     sample_variable, skipped, target, without,
 };
 use crate::{book, book_test, markdown, results, sources, structure, wheel};
@@ -79,15 +79,15 @@ fn documentation(root: &Path) -> Ended {
     cargo(root, &doc, &[("RUSTDOCFLAGS", "-D warnings")])
 }
 
-/// The README's test command. In the continuous integration a third of the verification problems and of the long tests,
+/// The README's test command. In the continuous integration a sixth of the verification problems and of the long tests,
 /// another one after each change.
 fn tests(root: &Path) -> Ended {
     // with it, what kills leave is opened with h5py too
     let python = python(root).map(|python| python.display().to_string()).unwrap_or_default();
-    let third = sample_variable(root);
+    let part_of = sample_variable(root);
     let mut vars = vec![("CREEPAGE_PYTHON", &*python)];
-    vars.extend(third.as_ref().map(|(name, third)| (*name, &**third)));
-    let left_out = sample(root).map(|third| left_out(root, third)).transpose()?.unwrap_or_default();
+    vars.extend(part_of.as_ref().map(|(name, part)| (*name, &**part)));
+    let left_out = part(root).map(|part| left_out(root, part)).transpose()?.unwrap_or_default();
     let mut test = vec!["test", "--release", "--workspace", "--"];
     test.extend(left_out.iter().flat_map(|name| ["--skip", &**name]));
     cargo(root, &test, &vars)
@@ -102,8 +102,8 @@ const LONG: &str = "
     tests::implicit::elastic_energy_is_kept_with_theta_one_half_and_lost_with_theta_one_as_booked
     tests::search::search_misses_no_node_of_a_disk_that_moves_smoothly";
 
-/// The long tests that are not of this third.
-fn left_out(root: &Path, third: usize) -> Result<Vec<String>, String> {
+/// The long tests that are not of this part.
+fn left_out(root: &Path, part: usize) -> Result<Vec<String>, String> {
     let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let list = "test --release --workspace --lib --bins --tests --quiet -- --list".split(' ');
     let listed = output(Command::new(cargo).args(list).current_dir(root))?;
@@ -118,7 +118,7 @@ fn left_out(root: &Path, third: usize) -> Result<Vec<String>, String> {
         return Err(format!("there is no test or module of tests `{gone}`"));
     }
     let long = names().filter(|name| long().any(|long| is_of(name, long))).enumerate();
-    Ok(long.filter(|(n, _)| n % 3 != third).map(|(_, name)| name.to_owned()).collect())
+    Ok(long.filter(|(n, _)| n % PARTS != part).map(|(_, name)| name.to_owned()).collect())
 }
 
 /// The JSON Schema accepts every case file of the project, and refuses bad ones.

@@ -32,17 +32,17 @@ pub fn tests(root: &Path) -> Ended {
     // lasso-python asks for pandas below 3, which what is used of it does not need
     done(Command::new(&python).args(PIP).args(install).arg(&wheel).arg("lasso-python==2.0.4"))?;
     done(Command::new(&python).arg(root.join("tests/python/check_wheel.py")).arg(&wheel))?;
-    // in the continuous integration a third of the longer tests, and one of the notebooks in turn
-    let third = sample_variable(root);
+    // in the continuous integration a sixth of the longer tests, and one of the notebooks in turn
+    let part = sample_variable(root);
     let pytest = ["-m", "pytest", "-q", "-p", "no:cacheprovider"];
     let mut package = Command::new(&python);
-    package.args(pytest).envs(third.clone()).current_dir(root.join("crates/python"));
+    package.args(pytest).envs(part.clone()).current_dir(root.join("crates/python"));
     // `creepage.verify` starts another program
     done(package.env("PATH", search([target(root).join("release")])?))?;
     let folder = root.join("notebooks");
     let notebooks = files(&folder).filter(|file| file.extension() == Some("ipynb".as_ref()));
     let script = root.join("tests/python/notebooks.py");
-    done(Command::new(&python).arg(script).args(notebooks).envs(third))
+    done(Command::new(&python).arg(script).args(notebooks).envs(part))
 }
 
 /// Builds the wheel into the target folder, the only one in its folder.
