@@ -2,9 +2,10 @@
 
     python tests/python/onset.py SWEEP OUT.png OUT.json
 
-Runs that differ in friction.memory.distance alone form a line. Left: the fluctuating share of slip over Gamma; right: over the
-distance of memory by the one from which rolling is stable (numbers.stable_memory). The onset is the distance at which the share
-is 0.3, between two runs along its logarithm. OUT.json: for each line its parameters, onset (m), gamma and ratio there.
+Runs that differ in friction.memory.distance, or friction.distance of rate and state, alone form a line. Left: the fluctuating
+share of slip over Gamma; right: over the distance of memory by the one from which rolling is stable (numbers.stable_memory). The
+onset is the distance at which the share is 0.3, between two runs along its logarithm. OUT.json: for each line its parameters,
+onset (m), gamma and ratio there.
 """
 
 import json
@@ -17,7 +18,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-MEMORY = "friction.memory.distance"
+MEMORY = ("friction.memory.distance", "friction.distance")
 SHARE = 0.3
 MARKERS = "osD^v<>PX*hdp"
 
@@ -27,10 +28,11 @@ def lines(sweep):
     runs = json.loads((sweep / "sweep.json").read_text())["runs"]
     groups = {}
     for run in (run for run in runs if run["status"] == "completed"):
-        others = tuple((key, value) for key, value in run["parameters"].items() if key != MEMORY)
+        others = tuple((key, value) for key, value in run["parameters"].items() if key not in MEMORY)
+        (distance,) = (run["parameters"][key] for key in MEMORY if key in run["parameters"])
         share = run["check"]["slip_zone"]["fluctuating_share"]["value"]
         numbers = run["summary"]["numbers"]
-        groups.setdefault(others, []).append((run["parameters"][MEMORY], share, numbers))
+        groups.setdefault(others, []).append((distance, share, numbers))
     for others, members in groups.items():
         members.sort(key=lambda member: member[0])
         distance, share, numbers = zip(*members)
@@ -54,9 +56,11 @@ def main(sweep, picture, table):
     rows = []
     colours = plt.get_cmap("tab20").colors
     for (parameters, distance, share, numbers), colour, marker in zip(found, colours, MARKERS):
-        changed = [f"{key} = {value:g}" for key, value in parameters.items() if value != nominal[key]]
+        named = {key: value if isinstance(value, str) else f"{value:g}" for key, value in parameters.items()}
+        changed = [f"{key} = {value}" for key, value in named.items() if parameters[key] != nominal[key]]
         label = ", ".join(changed) or "the reference"
-        gamma = numbers["gamma"] * distance[0] / distance
+        # rate and state have no nucleation length of this kind
+        gamma = (numbers["gamma"] or np.nan) * distance[0] / distance
         stable = numbers["stable_memory"]
         for axes, x in ((left, gamma), (right, distance / stable)):
             axes.semilogx(x, share, marker=marker, color=colour, lw=1, ms=5, label=label)
@@ -64,7 +68,7 @@ def main(sweep, picture, table):
         rows.append({
             "name": label,
             "onset": at,
-            "gamma": at and numbers["gamma"] * distance[0] / at,
+            "gamma": at and numbers["gamma"] and numbers["gamma"] * distance[0] / at,
             "stable_memory": stable,
             "ratio": at and at / stable,
         })

@@ -4,8 +4,8 @@ use crate::declaration::{Beside, Make};
 use crate::schema::{all_laws, with_laws};
 use crate::{
     Declaration, Exponential, Expression, ExpressionError, FrictionLaw, Implicit, Kind, Lagged,
-    LeftOut, Memory, NUMBERS, NodeFriction, Number, OwnLaw, Remembering, StateLaw, TableError,
-    Values,
+    LeftOut, Memory, NUMBERS, NodeFriction, Number, OwnLaw, RateState, Remembering, StateLaw,
+    TableError, Values,
 };
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
@@ -202,5 +202,10 @@ impl Parameters {
     /// The law as Eq. (8), if it is of that form.
     pub fn exponential(&self) -> Option<Exponential> {
         self.steady(Expression::untried)?.ok()?.as_exponential()
+    }
+
+    /// The law as one of rate and state, if it is one.
+    pub fn rate_state(&self) -> Option<RateState> {
+        (self.law == Kind::RateState).then(|| RateState::of(self))
     }
 }

@@ -64,18 +64,7 @@ pub(crate) const DECLARATION: Declaration = Declaration {
     needs: &[],
     takes: &["state", "mode"],
     write_defaults,
-    make: Make::AtNode(|p, _| {
-        Box::new(RateState {
-            reference: p.value(REFERENCE),
-            reference_speed: p.value(REFERENCE_SPEED),
-            direct: p.value(DIRECT),
-            evolution: p.value(EVOLUTION),
-            distance: p.value(DISTANCE),
-            law: p.state.unwrap_or_default(),
-            initial: p.value(AGE),
-            lagged: p.mode.unwrap_or_default() == Mode::Lagged,
-        })
-    }),
+    make: Make::AtNode(|p, _| Box::new(RateState::of(p))),
 };
 
 fn age_of_steady_sliding(p: &Parameters) -> f64 {
@@ -131,6 +120,35 @@ pub struct RateState {
 }
 
 impl RateState {
+    /// That of the parameters.
+    pub(crate) fn of(p: &Parameters) -> Self {
+        Self {
+            reference: p.value(REFERENCE),
+            reference_speed: p.value(REFERENCE_SPEED),
+            direct: p.value(DIRECT),
+            evolution: p.value(EVOLUTION),
+            distance: p.value(DISTANCE),
+            law: p.state.unwrap_or_default(),
+            initial: p.value(AGE),
+            lagged: p.mode.unwrap_or_default() == Mode::Lagged,
+        }
+    }
+
+    /// The same law with another distance L (m), whose contact begins with the same strength.
+    pub fn with_distance(self, distance: f64) -> Self {
+        Self { distance, initial: self.initial * distance / self.distance, ..self }
+    }
+
+    /// How much less friction a small further slip leaves, too fast for the state to recover, over `slip/L`: with
+    /// `d(f)/d(slip) = -g/L` of the strength `f = b ln(V_0 theta/L)` it is `g + V dg/dV - a`.
+    pub fn weakening(&self, theta: f64, speed: f64) -> f64 {
+        let lag = match self.law {
+            StateLaw::Ageing => 0.0,
+            StateLaw::Slip => self.evolution * libm::log(speed * theta / self.distance),
+        };
+        lag + self.evolution - self.direct
+    }
+
     /// Coefficient of steady sliding at `speed > 0` (m/s), where `theta = L/V`.
     pub fn steady(&self, speed: f64) -> f64 {
         let state = [self.distance / speed, speed];

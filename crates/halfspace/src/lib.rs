@@ -56,6 +56,6 @@ pub use rolling::{
     Along, Inertia, PatchPoint, PressureFactor, Rigid, Rolling, RollingError, RollingState, Setup,
     StepSums,
 };
-pub use stability::LineRolling;
+pub use stability::{Fading, LineRolling};
 pub use steady::{SteadyError, SteadyRolling, steady};
 pub use subsurface::{LoadedCell, plane_stress_below, stress_below};

@@ -16,8 +16,12 @@
 //! Rolling is unstable where the largest eigenvalue of `sqrt(w) C sqrt(w)` is above one: friction then falls by more than
 //! the stress of the bodies. This is Uenishi and Rice's (2003) argument for a zone that material crosses. It leaves out that slip
 //! zone and slip change with the law, and finite disturbances.
+//!
+//! Under rate and state friction at the coefficient f_0 stands for mu_S, and the strength of the state follows its own law; the
+//! direct effect a takes its part of the weakening: `w = (p/L)(b - a)` with ageing, `(p/L)(b ln(s theta/L) + b - a)` with the slip
+//! law.
 
-use friction::{Exponential, FrictionLaw};
+use friction::{Exponential, FrictionLaw, NodeConditions, NodeFriction, RateState};
 use nalgebra::DMatrix;
 
 /// Cells of the zone of slip: the distance then differs by 0.4 % from that of infinitely many.
@@ -36,6 +40,15 @@ pub struct LineRolling {
     pub slip_length: f64,
     /// Rolling speed V (m/s).
     pub speed: f64,
+}
+
+/// A law that remembers over a distance of slip, which is left open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fading {
+    /// A coefficient that follows Eq (8).
+    Falling(Exponential),
+    /// Rate and state.
+    RateState(RateState),
 }
 
 /// The zone of slip in cells of equal length, from the border of stick to the rear end.
@@ -76,23 +89,29 @@ impl LineRolling {
 
     /// The distance of memory (m) from which steady rolling with this law is stable; none where nothing slips or the
     /// law does not fall.
-    pub fn stable_memory(&self, law: &Exponential) -> Option<f64> {
-        let falls = law.mu_static > law.mu_dynamic && law.decay > 0.0;
+    pub fn stable_memory(&self, law: &Fading) -> Option<f64> {
+        let (falls, mu, drop) = match law {
+            Fading::Falling(law) => {
+                let drop = law.mu_static - law.mu_dynamic;
+                (drop > 0.0 && law.decay > 0.0, law.mu_static, drop)
+            }
+            // all of the strength may go
+            Fading::RateState(law) => (law.evolution > law.direct, law.reference, law.reference),
+        };
         if !(falls && self.slip_length > 0.0 && self.slip_length <= 2.0 * self.half_length) {
             return None;
         }
-        let zone = self.zone(law.mu_static);
+        let zone = self.zone(mu);
         // between a thousandth of the distance at which a zone with all of the drop is stable, and that distance
-        let most = 2.0 * self.slip_length * (law.mu_static - law.mu_dynamic) * self.pressure
-            / self.modulus;
+        let most = 2.0 * self.slip_length * drop * self.pressure / self.modulus;
         let (mut low, mut high) = (1e-3 * most, most);
         for _ in 0..40 {
             let middle = (low * high).sqrt();
-            if zone.is_unstable(&self.weakening(&zone, law, middle)) {
-                low = middle
-            } else {
-                high = middle
-            }
+            let weakening = match law {
+                Fading::Falling(law) => self.weakening(&zone, law, middle),
+                Fading::RateState(law) => self.weakening_of_state(&zone, law.with_distance(middle)),
+            };
+            if zone.is_unstable(&weakening) { low = middle } else { high = middle }
         }
         Some(high)
     }
@@ -111,6 +130,21 @@ impl LineRolling {
             })
             .collect()
     }
+
+    /// The rate w (Pa/m) in each cell under a law of rate and state.
+    fn weakening_of_state(&self, zone: &Zone, law: RateState) -> Vec<f64> {
+        let at = NodeConditions::default();
+        let half = 0.5 * zone.cell / self.speed;
+        let mut state = law.begin(&at);
+        let cells = zone.slip.iter().zip(&zone.pressure);
+        cells
+            .map(|(&s, p)| {
+                let middle = law.advance(state, s, &at, half);
+                state = law.advance(middle, s, &at, half);
+                p / law.distance * law.weakening(middle[0], s)
+            })
+            .collect()
+    }
 }
 
 impl Zone {
@@ -126,8 +160,20 @@ impl Zone {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use friction::StateLaw;
 
     const LAW: Exponential = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 6.0 };
+
+    const STATE: RateState = RateState {
+        reference: 0.5,
+        reference_speed: 1e-6,
+        direct: 0.005,
+        evolution: 0.02,
+        distance: 1e-6,
+        law: StateLaw::Ageing,
+        initial: 1.0,
+        lagged: false,
+    };
 
     /// Steel in line contact: a cylinder of 0.46 m under 10 kN/mm at a creepage of 4 per mille.
     fn steel() -> LineRolling {
@@ -170,7 +216,7 @@ mod tests {
     fn a_longer_zone_needs_a_longer_memory_and_a_law_that_falls_slower_or_faster_than_slip_a_shorter_one()
      {
         let rolling = steel();
-        let of = |rolling: LineRolling, law| rolling.stable_memory(&law).unwrap();
+        let of = |rolling: LineRolling, law| rolling.stable_memory(&Fading::Falling(law)).unwrap();
         let reference = of(rolling, LAW);
         assert!((reference - 4.85e-6).abs() < 0.01e-6, "{reference}");
         assert!(of(LineRolling { slip_length: 5e-3, ..rolling }, LAW) < reference);
@@ -182,8 +228,27 @@ mod tests {
     #[test]
     fn without_slip_or_fall_there_is_no_such_distance() {
         let rolling = steel();
-        assert_eq!(LineRolling { slip_length: 0.0, ..rolling }.stable_memory(&LAW), None);
-        assert_eq!(rolling.stable_memory(&Exponential { decay: 0.0, ..LAW }), None);
-        assert_eq!(rolling.stable_memory(&Exponential { mu_dynamic: 0.5, ..LAW }), None);
+        let of = |rolling: LineRolling, law| rolling.stable_memory(&Fading::Falling(law));
+        assert_eq!(of(LineRolling { slip_length: 0.0, ..rolling }, LAW), None);
+        assert_eq!(of(rolling, Exponential { decay: 0.0, ..LAW }), None);
+        assert_eq!(of(rolling, Exponential { mu_dynamic: 0.5, ..LAW }), None);
+        let strengthens = RateState { evolution: 0.004, ..STATE };
+        assert_eq!(rolling.stable_memory(&Fading::RateState(strengthens)), None);
+    }
+
+    #[test]
+    fn under_the_ageing_law_the_zone_is_stable_from_b_minus_a_over_l_as_one_that_weakens_at_that_rate()
+     {
+        let rolling = steel();
+        let stable = rolling.stable_memory(&Fading::RateState(STATE)).unwrap();
+        let zone = rolling.zone(STATE.reference);
+        let weakens = |share: f64| {
+            let at = |p: &f64| share * (STATE.evolution - STATE.direct) * p / stable;
+            zone.is_unstable(&zone.pressure.iter().map(at).collect::<Vec<_>>())
+        };
+        assert!(weakens(1.0001) && !weakens(0.9999), "{stable}");
+        // the slip law weakens with the logarithm of the speed besides
+        let slip = RateState { law: StateLaw::Slip, ..STATE };
+        assert!(rolling.stable_memory(&Fading::RateState(slip)).unwrap() > 2.0 * stable);
     }
 }

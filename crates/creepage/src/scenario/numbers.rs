@@ -7,7 +7,7 @@ use crate::case::schema::{Case, Creepage, DriveMode, Enforcement};
 use crate::scenario::model::{BAR, DISK, Model};
 use contact::Stiffness;
 use friction::{Falling, Interface};
-use halfspace::LineRolling;
+use halfspace::{Fading, LineRolling};
 use output::summary::Numbers;
 use solid::Material;
 
@@ -104,7 +104,9 @@ impl DimensionlessNumbers {
     /// Those of a case without friction springs, `at` its interface, whose coefficient of friction at rest is `mu`.
     pub(crate) fn of(case: &Case, at: Interface, mu: f64) -> Self {
         let falls = case.friction.exponential().filter(|law| friction::falling(law, &at).is_some());
+        let of_state = case.friction.rate_state();
         let memory = case.friction.memory.map(|memory| memory.distance);
+        let fading = falls.map(Fading::Falling).or(of_state.map(Fading::RateState));
         let half_length = hertz(case).a;
         let [share, directed] = slipping(case, mu, half_length);
         let slip_length = 2.0 * half_length * share;
@@ -118,8 +120,8 @@ impl DimensionlessNumbers {
         };
         Self {
             n1: None,
-            memory,
-            stable_memory: falls.and_then(|law| rolling.stable_memory(&law)),
+            memory: memory.or(of_state.map(|law| law.distance)),
+            stable_memory: fading.and_then(|law| rolling.stable_memory(&law)),
             falling: falls.and_then(|law| friction::falling(&law, &at)),
             nucleation: falls.zip(memory).map(|(law, d)| friction::nucleation_length(&law, d, &at)),
             slip_length,
@@ -129,7 +131,10 @@ impl DimensionlessNumbers {
 
     /// The line of the log; none for a law that does not fall.
     pub fn line(&self) -> Option<String> {
-        let f = self.falling?;
+        let Some(f) = self.falling else {
+            let um = three(1e6 * self.stable_memory?);
+            return Some(format!("rate and state: rolling is stable from a distance of {um} um"));
+        };
         let mut line = format!("falling friction at {} MPa", three(self.at.pressure * 1e-6));
         for (name, value) in [("R", Some(f.r)), ("N1", self.n1), ("N2", Some(f.n2))] {
             // half-spaces have no surface layer, and without inertia no impedance
@@ -160,15 +165,18 @@ impl DimensionlessNumbers {
 
     /// One sentence on what to expect of the run, where there is reason for a warning.
     pub fn expectation(&self) -> Option<String> {
-        let f = self.falling?;
         let stable = self.stable_memory.map(|distance| three(1e6 * distance));
-        match (self.memory, self.stable_memory) {
-            (Some(memory), Some(least)) if memory < least => Some(format!(
-                "friction.memory.distance = {memory:.1e} is below the {} um from which rolling in line contact is stable: slip \
-                 may fluctuate by itself, and a mesh has the answer where it resolves h_n",
+        let (key, resolved) = match self.nucleation {
+            Some(_) => ("friction.memory.distance", "h_n"),
+            None => ("friction.distance", "the zone that becomes unstable"),
+        };
+        match (self.memory, self.stable_memory, self.falling) {
+            (Some(memory), Some(least), _) if memory < least => Some(format!(
+                "{key} = {memory:.1e} is below the {} um from which rolling in line contact is stable: slip \
+                 may fluctuate by itself, and a mesh has the answer where it resolves {resolved}",
                 three(1e6 * least)
             )),
-            (None, _) if f.r > 1.0 => Some(format!(
+            (None, _, Some(f)) if f.r > 1.0 => Some(format!(
                 "R = {} is above 1: friction that falls with the slip speed of the instant has no solution that \
                  meshes converge to; expect slip that jumps between rest and {:.1} m/s, or an artefact in its \
                  place ([friction.memory] gives a solution{})",
