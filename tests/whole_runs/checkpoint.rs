@@ -107,8 +107,8 @@ fn a_hub_that_drifts_and_turns_goes_on_where_it_was() {
 #[test]
 fn irregular_surfaces_go_on_with_the_material_that_was_there() {
     let surfaces = [
-        "bar.surface={ formula = \"2e-7*cos(2*pi*x/0.008)\" }",
-        "disk.out_of_round={ formula = \"2e-7*sin(40*angle)\" }",
+        "bar.surface={ formula = \"2e-6*cos(2*pi*x/0.008)\" }",
+        "disk.out_of_round={ formula = \"2e-6*sin(40*angle)\" }",
     ];
     let window = ["contact.enforcement=exact", "mesh.window=0.0096", "time.roll=0.006"];
     let sets = [&surfaces[..], &window].concat();

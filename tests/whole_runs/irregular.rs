@@ -14,8 +14,8 @@ const SMALL: [&str; 7] = [
 ];
 const WINDOW: &str = "mesh.window=0.0096";
 const IRREGULAR: [&str; 2] = [
-    "bar.surface={ formula = \"2e-7*cos(2*pi*x/0.008)\" }",
-    "disk.out_of_round={ formula = \"2e-7*sin(40*angle)\" }",
+    "bar.surface={ formula = \"2e-6*cos(2*pi*x/0.008)\" }",
+    "disk.out_of_round={ formula = \"2e-6*sin(40*angle)\" }",
 ];
 const LEVEL: [&str; 2] = [
     "bar.surface={ points = [[-1, 0], [1, 0]] }",
@@ -43,7 +43,7 @@ fn a_zone_that_follows_the_contact_meets_the_same_irregularities_as_one_as_long_
     for name in ["history/normal_force", "history/hub_z"] {
         let (effect, difference) = (apart(&fixed, &level, name), apart(&window, &fixed, name));
         println!("{name}: {effect:e} {difference:e}");
-        assert!(difference < 0.02 * effect, "{name}: {difference:e} of {effect:e}");
+        assert!(difference < 0.05 * effect, "{name}: {difference:e} of {effect:e}");
     }
     for run in [&fixed, &window] {
         let error = run.number("/energy/balance_error");
@@ -62,9 +62,9 @@ fn irregular_surfaces_give_the_same_bits_on_any_number_of_threads() {
 fn surfaces_without_height_give_the_bits_of_smooth_ones() {
     for kind in ["contact.enforcement=exact", "contact.enforcement=penalty", "contact.rows=mortar"]
     {
-        let roll = "time.roll=0.001";
-        let smooth = small(&[kind, roll], 2);
-        let level = small(&[kind, roll, LEVEL[0], LEVEL[1]], 2);
+        let [roll, last] = ["time.roll=0.001", "evaluate.last=0.0005"];
+        let smooth = small(&[kind, roll, last], 2);
+        let level = small(&[kind, roll, last, LEVEL[0], LEVEL[1]], 2);
         assert_eq!(smooth.differing(&level), Vec::<&str>::new(), "{kind}");
     }
 }
