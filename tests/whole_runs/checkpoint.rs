@@ -105,6 +105,17 @@ fn a_hub_that_drifts_and_turns_goes_on_where_it_was() {
 }
 
 #[test]
+fn irregular_surfaces_go_on_with_the_material_that_was_there() {
+    let surfaces = [
+        "bar.surface={ formula = \"2e-6*cos(2*pi*x/0.008)\" }",
+        "disk.out_of_round={ formula = \"2e-6*sin(40*angle)\" }",
+    ];
+    let window = ["contact.enforcement=exact", "mesh.window=0.0096", "time.roll=0.006"];
+    let sets = [&surfaces[..], &window].concat();
+    interrupted_is_uninterrupted(&sets, &["contact/slip/0001", "history/window_x"]);
+}
+
+#[test]
 fn a_zone_that_follows_the_contact_goes_on_where_it_was() {
     let window = ["contact.enforcement=exact", "mesh.window=0.0096", "time.roll=0.006"];
     interrupted_is_uninterrupted(&window, &["contact/slip/0001", "history/window_x"]);

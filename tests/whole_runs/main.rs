@@ -11,6 +11,7 @@ mod exact;
 mod friction_laws;
 mod half_model;
 mod half_space;
+mod irregular;
 mod line_contact;
 mod nearly_incompressible;
 mod physics;

@@ -8,6 +8,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod convergence;
+mod corrugation;
 mod problem;
 mod problems;
 mod rolling_dynamic;

@@ -1,10 +1,10 @@
 //! The list of problems.
 
 use crate::{
-    Problem, carter, cattaneo, collision, contact_examples, contact_turn, finite_body, free_block,
-    grading_reflection, half_space_rolling, half_space_rupture, half_space_waves, hertz,
-    hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, manchester, mindlin, patch,
-    perturbation_growth, rolling_dynamic, rolling_limits, rolling_memory, rolling_sideways,
+    Problem, carter, cattaneo, collision, contact_examples, contact_turn, corrugation, finite_body,
+    free_block, grading_reflection, half_space_rolling, half_space_rupture, half_space_waves,
+    hertz, hertz_stress, implicit, interface_patch, kalker, lamb, lysmer, manchester, mindlin,
+    patch, perturbation_growth, rolling_dynamic, rolling_limits, rolling_memory, rolling_sideways,
     rolling_steps, rupture, shear_column, shear_column_penalty, slider_tables, sliding,
     steady_rolling, unlike, waves,
 };
@@ -245,6 +245,11 @@ pub const PROBLEMS: &[Problem] = &[
         name: "manchester",
         about: "S1002 wheels on UIC 60 rails, case A-2.2 of the Manchester benchmark: contact and forces of CONTACT",
         run: manchester::run,
+    },
+    Problem {
+        name: "corrugation",
+        about: "A wheel on a corrugated rail: how far the hub follows it, beside half-spaces",
+        run: corrugation::run,
     },
     Problem {
         name: "mindlin",

@@ -69,7 +69,8 @@ fn slide(law: impl NodeFriction + 'static) -> Result<Vec<f64>, Box<dyn Error>> {
         hexes: vec![[0, 1, 2, 3, 4, 5, 6, 7], [8, 9, 10, 11, 12, 13, 14, 15]],
         ..Mesh::default()
     };
-    let surface = |nodes, hex| Surface { faces: vec![Face { nodes, hex }], smooth: None };
+    let surface =
+        |nodes, hex| Surface { faces: vec![Face { nodes, hex }], smooth: None, irregularity: None };
     let (under, top) = (surface([0, 3, 2, 1], 0), surface([12, 13, 14, 15], 1));
     let steel = BodyMaterial { bulk_modulus: 175e9, density: 7800.0 };
     let settings = ExactSettings { slave: Some(0), ..ExactSettings::default() };

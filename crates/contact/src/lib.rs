@@ -14,6 +14,7 @@ mod exact;
 mod face;
 mod gap;
 mod gap_function;
+mod lift;
 pub mod mesh_mode;
 mod method;
 mod mortar;

@@ -79,12 +79,13 @@ impl ContactSurface {
         mesh: &Mesh,
         surfaces: [(&Surface, BodyMaterial); 2],
     ) -> Result<(Trace, [Self; 2]), ContactError> {
-        let trace = Trace::new(surfaces.map(|(surface, _)| nodes_of(surface)));
+        let mut trace = Trace::new(surfaces.map(|(surface, _)| nodes_of(surface)));
         let [(first, first_material), (second, second_material)] = surfaces;
         let sides = [
             Self::new(mesh, first, first_material, &trace, 0)?,
             Self::new(mesh, second, second_material, &trace, 1)?,
         ];
+        trace.lift(mesh, [first, second])?;
         match trace.side(0).iter().find(|n| trace.side(1).binary_search(n).is_ok()) {
             Some(&node) => Err(ContactError::SharedNode { node }),
             None => Ok((trace, sides)),

@@ -3,8 +3,9 @@
 //! Contact works with the trace alone. What it tells others, such as tables of nodes and gaps, and what solvers
 //! of equilibrium and of frequencies ask of it has the numbers of the mesh; [`Trace`] translates.
 
-use crate::Motion;
-use mesh::Padded;
+use crate::lift::Lifts;
+use crate::{ContactError, Motion};
+use mesh::{Mesh, Padded, Surface};
 use std::ops::Range;
 
 /// The nodes of both contact surfaces, numbered from zero: those of side 0, then those of side 1, each ascending
@@ -15,13 +16,29 @@ pub struct Trace {
     nodes: Vec<u32>,
     /// Where side 1 begins.
     second: usize,
+    /// Those that irregularities of the surfaces move.
+    lifts: Lifts,
 }
 
 impl Trace {
     /// Of sides with these nodes of the mesh, each ascending.
     pub(crate) fn new([first, second]: [Vec<u32>; 2]) -> Self {
         let begin = first.len();
-        Self { nodes: [first, second].concat(), second: begin }
+        Self { nodes: [first, second].concat(), second: begin, lifts: Lifts::default() }
+    }
+
+    /// Moves the nodes by the irregularities of their surfaces.
+    pub(crate) fn lift(
+        &mut self,
+        mesh: &Mesh,
+        surfaces: [&Surface; 2],
+    ) -> Result<(), ContactError> {
+        let local = |side: usize, node: u32| {
+            let range = self.range(side);
+            (range.start + self.nodes[range].partition_point(|&n| n < node)) as u32
+        };
+        self.lifts = Lifts::new(mesh, surfaces, local)?;
+        Ok(())
     }
 
     /// Numbers of its nodes in the mesh.
@@ -61,13 +78,16 @@ impl Trace {
         self.nodes.iter().zip(values).for_each(|(&n, value)| field[n as usize] = *value);
     }
 
-    /// The positions `X + u` (m) on the trace, of reference positions and displacements of the nodes of the mesh (m).
+    /// The positions `X + u` (m) on the trace, of reference positions and displacements of the nodes of the mesh (m), moved by
+    /// the heights of irregular surfaces (module `lift`).
     ///
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
     pub fn positions(&self, reference: &[Padded], displacement: &[Padded]) -> Vec<Padded> {
         let position = |&n: &u32| moved(&reference[n as usize], &displacement[n as usize]);
-        self.nodes.iter().map(position).collect()
+        let mut positions: Vec<Padded> = self.nodes.iter().map(position).collect();
+        self.lifts.apply(self.lifts.inward().map(|n| position(&n)), &mut positions);
+        positions
     }
 }
 
@@ -79,6 +99,8 @@ pub struct TraceFields {
     trace: Trace,
     /// Reference positions (m).
     reference: Vec<Padded>,
+    /// Those of the nodes across from nodes that irregularities move (m).
+    inward: Vec<Padded>,
     /// Positions (m).
     position: Vec<Padded>,
     /// Velocities (m/s).
@@ -95,10 +117,12 @@ impl TraceFields {
     /// # Panics
     /// If a slice has fewer entries than the mesh has nodes.
     pub fn new(trace: &Trace, reference: &[Padded], inverse_mass: &[f64]) -> Self {
+        let inward = trace.lifts.inward().map(|n| reference[n as usize]).collect();
         let reference = trace.gather(reference);
         let zeros = vec![Padded::ZERO; reference.len()];
         Self {
             trace: trace.clone(),
+            inward,
             position: reference.clone(),
             velocity: zeros.clone(),
             inverse_mass: trace.gather(inverse_mass),
@@ -122,7 +146,13 @@ impl TraceFields {
         self.force.fill(Padded::ZERO);
     }
 
-    /// Takes positions `X + u` from displacements of the nodes of the mesh (m).
+    /// Takes the heights of irregular surfaces anew: the meshes of both sides have moved along the material by `moved` since the
+    /// start, in x (m) or about the axis (rad).
+    pub fn of_material(&mut self, moved: [f64; 2]) {
+        self.trace.lifts.of_material(moved);
+    }
+
+    /// Takes positions `X + u` from displacements of the nodes of the mesh (m), moved by the heights of irregular surfaces.
     ///
     /// # Panics
     /// If `displacement` has fewer entries than the mesh has nodes.
@@ -131,6 +161,10 @@ impl TraceFields {
         for ((position, x), &node) in places {
             *position = moved(x, &displacement[node as usize]);
         }
+        let lifts = &self.trace.lifts;
+        let across = self.inward.iter().zip(lifts.inward());
+        let across = across.map(|(x, n)| moved(x, &displacement[n as usize]));
+        lifts.apply(across, &mut self.position);
     }
 
     /// Takes velocities of the nodes of the mesh (m/s).
@@ -171,7 +205,7 @@ impl TraceFields {
 
     /// The same with the forces, for contact to add to.
     pub fn step(&mut self, time: f64, dt: f64) -> TraceStep<'_> {
-        let Self { trace, reference, position, velocity, inverse_mass, force } = self;
+        let Self { trace, reference, position, velocity, inverse_mass, force, .. } = self;
         let motion = Motion { position, velocity, inverse_mass, time, dt };
         TraceStep { trace, reference, motion, force }
     }

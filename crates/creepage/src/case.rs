@@ -18,6 +18,7 @@ pub mod form;
 mod forms;
 pub mod friction_law;
 pub mod hertz;
+pub mod irregularity;
 mod json_schema;
 pub mod key;
 pub mod keys;

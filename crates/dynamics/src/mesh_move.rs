@@ -88,7 +88,16 @@ impl Simulation {
             if range.contains(&node) { successors[node - range.start] } else { Some(node as u32) }
         };
         let renumbering = Renumbering { successor: &successor, origin: self.travel.x };
-        self.system.contact.as_mut().map_or(0, |contact| contact.renumber(renumbering))
+        let lost = self.system.contact.as_mut().map_or(0, |contact| contact.renumber(renumbering));
+        self.take_heights();
+        lost
+    }
+
+    /// Takes the heights of irregular surfaces where the meshes are now.
+    pub(crate) fn take_heights(&mut self) {
+        if let Some(trace) = &mut self.nodes.trace {
+            trace.of_material([self.travel.angle, self.travel.x]);
+        }
     }
 
     /// Moves the mesh of the lower body ahead.

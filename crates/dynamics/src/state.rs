@@ -111,6 +111,7 @@ impl Simulation {
         }
         (self.step, self.ledger, self.timers) = (state.step, state.ledger, state.timers);
         (self.watch, self.travel) = (state.watch, state.travel);
+        self.take_heights();
         if let Some(implicit) = &mut self.implicit {
             implicit.effort = state.effort;
             implicit.set_counted(&state.columns);

@@ -2,9 +2,8 @@
 
 use crate::declaration::{Make, no_defaults};
 use crate::law::trial_speeds;
-use crate::operators::Operators;
+use crate::formula::Formula;
 use crate::{Declaration, FrictionLaw, NodeConditions};
-use exmex::{Express, FlatEx, MatchLiteral};
 use std::sync::Arc;
 use thiserror::Error;
 
@@ -24,39 +23,6 @@ pub(crate) const DECLARATION: Declaration = Declaration {
 /// The names of a formula: slip speed (m/s), contact pressure (Pa), time (s), position along `x` (m).
 const NAMES: [&str; 4] = ["s", "p", "t", "x"];
 
-/// Numbers as people write them, with a decimal exponent: `2`, `.5`, `1e-9`.
-#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-struct Numeral;
-
-impl MatchLiteral for Numeral {
-    fn is_literal(text: &str) -> Option<&str> {
-        let digits = |from: usize| {
-            text.as_bytes()[from..].iter().take_while(|byte| byte.is_ascii_digit()).count()
-        };
-        let byte = |at: usize| text.as_bytes().get(at).copied();
-        let mut end = digits(0);
-        let mut mantissa = end;
-        if byte(end) == Some(b'.') {
-            let fraction = digits(end + 1);
-            mantissa += fraction;
-            end += 1 + fraction;
-        }
-        if mantissa == 0 {
-            return None;
-        }
-        if matches!(byte(end), Some(b'e' | b'E')) {
-            let sign = usize::from(matches!(byte(end + 1), Some(b'+' | b'-')));
-            let start = end + 1 + sign;
-            if byte(start).is_some_and(|byte| byte.is_ascii_digit()) {
-                end = start + digits(start);
-            }
-        }
-        Some(&text[..end])
-    }
-}
-
-type Formula = FlatEx<f64, Operators, Numeral>;
-
 /// `mu` by a formula, for example `0.32 + 0.18*exp(-6*s)`, parsed once. It may use the slip speed `s` (m/s) and,
 /// at a contact node, the contact pressure `p` (Pa), the time `t` (s) and the position `x` (m).
 ///
@@ -64,10 +30,7 @@ type Formula = FlatEx<f64, Operators, Numeral>;
 /// run at its guards.
 #[derive(Clone, Debug)]
 pub struct Expression {
-    text: String,
-    formula: Arc<Formula>,
-    /// Indices into [`NAMES`] of the formula's names, in the order in which it takes their values.
-    arguments: Vec<usize>,
+    formula: Formula,
     at_rest: f64,
 }
 
@@ -158,24 +121,12 @@ impl Expression {
     }
 
     fn parse(text: &str, allowed: &[&str], names: &'static str) -> Result<Self, ExpressionError> {
-        let formula = Formula::parse(text).map_err(|error| ExpressionError::Syntax {
-            text: text.into(),
-            reason: error.to_string(),
-        })?;
-        let mut arguments = Vec::new();
-        for name in formula.var_names() {
-            let Some(argument) = allowed.iter().position(|other| other == name) else {
-                let (position, name) = (position(text, name), name.clone());
-                return Err(ExpressionError::Name { text: text.into(), name, position, names });
-            };
-            arguments.push(argument);
-        }
-        Ok(Self { text: text.into(), formula: Arc::new(formula), arguments, at_rest: f64::NAN })
+        Ok(Self { formula: Formula::parse(text, allowed, names)?, at_rest: f64::NAN })
     }
 
     fn checked(mut self, domain: &Domain) -> Result<Self, ExpressionError> {
         // a name that the formula does not use needs one value only
-        let steps = |name: usize, most: u32| if self.arguments.contains(&name) { most } else { 0 };
+        let steps = |name: usize, most: u32| if self.formula.uses(name) { most } else { 0 };
         for i in 0..=steps(1, 8) {
             let decades = f64::from(i) - 8.0;
             let p = if i == 0 { 0.0 } else { domain.pressure * libm::pow(10f64, decades) };
@@ -187,7 +138,7 @@ impl Expression {
                     for speed in trial_speeds() {
                         let mu = self.raw([speed, p, t, x]);
                         if !(mu >= 0.0 && mu.is_finite()) {
-                            let text = self.text.clone();
+                            let text = self.text().to_owned();
                             let place = self.place([("p", p, "Pa"), ("t", t, "s"), ("x", x, "m")]);
                             return Err(ExpressionError::Value { text, speed, place, mu });
                         }
@@ -201,39 +152,23 @@ impl Expression {
 
     /// The values of pressure, time and position that the formula uses, for a message.
     fn place(&self, values: [(&str, f64, &str); 3]) -> String {
-        let used = self.arguments.iter().filter_map(|&name| values.get(name.checked_sub(1)?));
-        used.map(|(name, value, unit)| format!(", {name} = {value} {unit}")).collect()
+        let used = (1..).zip(values).filter(|(argument, _)| self.formula.uses(*argument));
+        used.map(|(_, (name, value, unit))| format!(", {name} = {value} {unit}")).collect()
     }
 
     /// The formula as it was given.
     pub fn text(&self) -> &str {
-        &self.text
+        self.formula.text()
     }
 
     fn raw(&self, values: [f64; 4]) -> f64 {
-        let mut taken = [0.0; 4];
-        for (argument, &name) in taken.iter_mut().zip(&self.arguments) {
-            *argument = values[name];
-        }
-        // the number of arguments is right by construction
-        self.formula.eval(&taken[..self.arguments.len()]).unwrap_or(f64::NAN)
+        self.formula.value(values)
     }
 
     fn value(&self, values: [f64; 4]) -> f64 {
         let mu = self.raw(values);
         if mu >= 0.0 && mu.is_finite() { mu } else { f64::NAN }
     }
-}
-
-/// Position of a name as a whole word, in characters from 1.
-fn position(text: &str, name: &str) -> usize {
-    let word = |c: char| c.is_alphanumeric() || c == '_';
-    let found = text.match_indices(name).find(|(at, _)| {
-        let before = text[..*at].chars().next_back();
-        let after = text[at + name.len()..].chars().next();
-        !before.is_some_and(word) && !after.is_some_and(word)
-    });
-    found.map_or(1, |(at, _)| text[..at].chars().count() + 1)
 }
 
 impl FrictionLaw for Expression {

@@ -8,6 +8,7 @@
 #![cfg_attr(not(test), deny(clippy::disallowed_methods))]
 
 mod declaration;
+mod formula;
 mod law;
 mod memory;
 mod node;
@@ -34,6 +35,7 @@ pub use coulomb::{Coulomb, STATIC};
 pub use declaration::{Declaration, LeftOut, NUMBERS, Number};
 pub use exponential::{DYNAMIC, Exponential};
 pub use expression::{Domain, Expression, ExpressionError};
+pub use formula::Formula;
 pub use law::{FrictionLaw, NodeConditions, Strengthens};
 pub use memory::Memory;
 pub use node::{Implicit, Lagged, NodeFriction, NodeHistory, Remembering, Remembers};

@@ -118,7 +118,7 @@ fn tensor(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     for (name, faces, smooth) in
         [("top", top, smooth), ("zone", zone, smooth), ("rear", rear, None), ("front", front, None)]
     {
-        body.surfaces.insert(name.to_owned(), Surface { faces, smooth });
+        body.surfaces.insert(name.to_owned(), Surface { faces, smooth, irregularity: None });
     }
     Ok(mesh)
 }

@@ -167,8 +167,8 @@ fn extruded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
             ("zone".to_owned(), nodes_of(&zone)),
         ]),
         surfaces: BTreeMap::from([
-            ("tread".to_owned(), Surface { faces: tread, smooth }),
-            ("zone".to_owned(), Surface { faces: zone, smooth }),
+            ("tread".to_owned(), Surface { faces: tread, smooth, irregularity: None }),
+            ("zone".to_owned(), Surface { faces: zone, smooth, irregularity: None }),
         ]),
     };
     Ok(Mesh { nodes, hexes, bodies: vec![body], symmetric: false })

@@ -147,7 +147,7 @@ fn named_block(cells: [usize; 3], [xs, ys, zs]: [&[f64]; 3]) -> Mesh {
         let faces = grid.side(&mesh, side);
         let body = &mut mesh.bodies[0];
         body.node_sets.insert(name.to_owned(), nodes_of(&faces));
-        body.surfaces.insert(name.to_owned(), Surface { faces, smooth: None });
+        body.surfaces.insert(name.to_owned(), Surface { faces, smooth: None, irregularity: None });
     }
     mesh
 }

@@ -224,6 +224,7 @@ impl Mirror {
         let surface = |s: &Surface| Surface {
             faces: s.faces.iter().filter_map(face).collect(),
             smooth: s.smooth,
+            irregularity: s.irregularity.clone(),
         };
         let mut node_sets: BTreeMap<_, _> =
             body.node_sets.iter().map(|(name, nodes)| (name.clone(), set(nodes))).collect();

@@ -29,6 +29,7 @@ fn shifted(body: &Body, n: usize, e: usize) -> Body {
             .map(|f| Face { nodes: f.nodes.map(|i| i + n as u32), hex: f.hex + e as u32 })
             .collect(),
         smooth: s.smooth,
+        irregularity: s.irregularity.clone(),
     };
     Body {
         name: body.name.clone(),

@@ -1,6 +1,6 @@
 //! A mesh: nodes, elements, and bodies with their node sets and surfaces.
 
-use crate::SmoothSurface;
+use crate::{Irregularity, SmoothSurface};
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -48,6 +48,8 @@ pub struct Surface {
     pub faces: Vec<Face>,
     /// The exact undeformed surface on which the nodes of the faces lie; `None` where there is only the mesh.
     pub smooth: Option<SmoothSurface>,
+    /// What it has beyond that shape; the mesh does not have it.
+    pub irregularity: Option<Irregularity>,
 }
 
 /// A quadrilateral element face.

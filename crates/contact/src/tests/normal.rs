@@ -234,7 +234,7 @@ fn wrong_settings_are_refused() {
     let mesh = Mesh::default();
     let surfaces =
         || [(&EMPTY, crate::tests::plates::STEEL), (&EMPTY, crate::tests::plates::STEEL)];
-    static EMPTY: Surface = Surface { faces: Vec::new(), smooth: None };
+    static EMPTY: Surface = Surface { faces: Vec::new(), smooth: None, irregularity: None };
     let refused = |settings: PenaltySettings, mu: f64| {
         PenaltyContact::new(&mesh, surfaces(), &settings, None, Box::new(Coulomb { mu }))
             .unwrap_err()

@@ -54,7 +54,7 @@ fn mapped(
         }
     }
     let plane = ((nx + 1) * (ny + 1)) as u32;
-    let mut surface = Surface { faces: Vec::new(), smooth };
+    let mut surface = Surface { faces: Vec::new(), smooth, irregularity: None };
     for j in 0..ny {
         for i in 0..nx {
             let a = (j * (nx + 1) + i) as u32;
@@ -84,5 +84,5 @@ pub(crate) fn together(first: Mesh, second: Mesh, surface: Surface) -> (Mesh, Su
         .iter()
         .map(|f| Face { nodes: f.nodes.map(|n| n + nodes), hex: f.hex + hexes })
         .collect();
-    (mesh, Surface { faces, smooth: surface.smooth })
+    (mesh, Surface { faces, ..surface })
 }

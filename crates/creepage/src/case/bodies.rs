@@ -3,8 +3,10 @@
 use crate::case::form::Form::{Number, Text};
 use crate::case::form::within;
 use crate::case::forms::{Crown, ProfileShape};
+use crate::case::irregularity::SurfaceHeights;
 use crate::case::key::{
-    ANGLE, CROWN, DENSITY, FLAG, LENGTH, POISSON, PROFILE, SET, YOUNG, key, word,
+    ANGLE, BAR_HEIGHTS, CROWN, DENSITY, DISK_HEIGHTS, FLAG, LENGTH, POISSON, PROFILE, SET, YOUNG,
+    key, word,
 };
 use crate::case::section::{is_default, section, words};
 
@@ -22,6 +24,11 @@ section! {
         /// Transverse profile in the place of a crown, that of the left wheel: y away from the middle of the track, z down, z = 0
         /// at `radius`. `"S1002"`, the path of a file (SIMPACK's .prw, or two columns in mm), or points in m. Default: none.
         profile: Option<ProfileShape> => PROFILE.instead_of("disk.crown_radius");
+        /// Heights of the tread over its smooth shape (m), positive outward, over the angle (rad) from the first point of contact
+        /// towards the material that touches later: flats, wheels out of round. `{ formula = "1e-4*cos(3*angle)" }`, with `angle`
+        /// from -pi to pi, or `{ file = "wheel.csv" }` or `{ points = [[angle, height], ...] }`, linear between the points and from
+        /// the last to the first after a turn. Default: none.
+        out_of_round: Option<SurfaceHeights> => DISK_HEIGHTS;
         /// y of the wheel's profile over that of the bar (m). Default 0: their origins lie over one another.
         #[serde(skip_serializing_if = "is_default")]
         lateral: f64
@@ -69,6 +76,10 @@ section! {
         /// Transverse profile in the place of a crown, that of the left rail: y away from the middle of the track, z down.
         /// `"60E1"`, the path of a file (SIMPACK's .prr, or two columns in mm), or points in m. Default: none.
         profile: Option<ProfileShape> => PROFILE.instead_of("bar.crown_radius");
+        /// Heights of the top over its smooth shape (m), positive up, over x (m) from the first point of contact at the start:
+        /// corrugation, rough rails. `{ formula = "1e-5*cos(2*pi*x/0.04)" }`, or `{ file = "rail.csv" }` or
+        /// `{ points = [[x, height], ...] }`, linear between points that must cover the roll. Default: none.
+        surface: Option<SurfaceHeights> => BAR_HEIGHTS;
         /// Angle about x (rad) by which a profile leans towards the middle of the track. Default 0.
         #[serde(skip_serializing_if = "is_default")]
         cant: f64 => ANGLE;

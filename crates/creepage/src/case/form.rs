@@ -6,6 +6,7 @@ use friction::Table;
 use mesh::profile::STANDARD_PROFILES;
 use toml::Value;
 
+use crate::case::irregularity::{self, Coordinate};
 use crate::case::value::{float, number, points, quoted, show, whole};
 
 /// A range of numbers, both ends included. Its ends are finite, and above zero where zero has no meaning: a number that is
@@ -79,6 +80,8 @@ pub enum Form {
     Curve(Range, Range),
     /// The name of a standard's profile, or a list of points [y, z] in m. In a file it may be the path of another file.
     Profile,
+    /// Heights over a coordinate of a surface: a formula or points. In a file they may be the path of another file.
+    Heights(Coordinate),
 }
 
 impl Form {
@@ -112,6 +115,7 @@ impl Form {
                 "a number {range}{unit}, or a list of pairs [time, number], times in s rising from 0"
             ),
             Self::Points(range) => format!("a list of pairs of numbers {range}{unit}"),
+            Self::Heights(over) => over.allowed(),
             Self::Profile => {
                 "\"60E1\" (a rail), \"S1002\" (a wheel), the path of a file in mm, or a list of pairs [y, z] in m".into()
             }
@@ -123,6 +127,9 @@ impl Form {
         let problem = match (self, points(value)) {
             (Self::OverTime(range), Some(points)) => not_over_time(&points, *range),
             (Self::Curve(speeds, mu), Some(points)) => not_a_curve(points, *speeds, *mu),
+            (Self::Heights(over), _) if irregularity::is_written(value) => {
+                irregularity::mistake(value, *over)
+            }
             _ if self.holds(value) => None,
             _ => return Some(format!("{} must be {}", show(value), self.allowed(unit))),
         };

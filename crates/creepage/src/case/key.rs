@@ -139,7 +139,9 @@ pub(crate) const fn word(words: &'static [&'static str]) -> Key {
     key(Form::Word(words), "", "choose one of the words")
 }
 
-use Form::{Crown, Flag, Number, Profile, Stiffness, Text};
+use crate::case::irregularity::Coordinate;
+
+use Form::{Crown, Flag, Heights, Number, Profile, Stiffness, Text};
 
 pub(crate) const FLAG: Key = key(Flag, "", "give true or false, without quotes");
 pub(crate) const LENGTH: Key =
@@ -152,6 +154,19 @@ pub(crate) const PROFILE: Key = key(
     "give the name of a profile, the path of a file in millimetres, relative to this one, or points in metres: `profile = \"60E1\"`",
 )
 .half_space_only();
+pub(crate) const BAR_HEIGHTS: Key = key(
+    Heights(Coordinate::X),
+    "",
+    "give heights in metres over x in metres: `surface = { formula = \"1e-5*cos(2*pi*x/0.04)\" }`, or `{ file = \"rail.csv\" }`",
+)
+.finite_elements_only();
+pub(crate) const DISK_HEIGHTS: Key = key(
+    Heights(Coordinate::Angle),
+    "",
+    "give heights in metres over the angle in rad: `out_of_round = { formula = \"1e-4*cos(3*angle)\" }`, or \
+     `{ file = \"wheel.csv\" }`",
+)
+.finite_elements_only();
 pub(crate) const ANGLE: Key =
     key(Number(within(-0.5, 0.5)), "rad", "give the angle in radians: 5e-3 for 5 mrad")
         .half_space_only();

@@ -128,10 +128,11 @@ impl Layers {
         Ok(())
     }
 
-    /// The files that were read, and the file that `friction.table` names, if it names one.
+    /// The files that were read, and those that `friction.table`, `bar.surface` and `disk.out_of_round` name.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.places.files().cloned().collect();
-        files.extend(self.file_at("friction.table"));
+        let tables = ["friction.table", "bar.surface.file", "disk.out_of_round.file"];
+        files.extend(tables.iter().filter_map(|key| self.file_at(key)));
         files
     }
 

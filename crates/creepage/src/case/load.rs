@@ -15,7 +15,7 @@ use crate::case::schema::{BodyModel, Case, Checkpoint, DriveMode, Guards, Meshin
 use crate::case::units::with_units;
 use crate::case::value::get;
 use crate::case::written::Written;
-use crate::case::{check, mesh_file, name, profile_file, table, validation};
+use crate::case::{check, irregularity, mesh_file, name, profile_file, table, validation};
 
 /// A case: a file, and what is laid over it.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -56,7 +56,7 @@ impl Case {
     ///
     /// # Errors
     /// A file that cannot be read, or is not well-formed TOML; keys that are unknown, missing, out of range, or
-    /// contradict one another; a mesh file or a friction table that cannot be read.
+    /// contradict one another; a mesh file or a table that cannot be read.
     pub fn load(path: &Path, sets: &[String]) -> Result<Self, CaseError> {
         Self::read(&CaseFile::Disk(path.to_owned()), sets)
     }
@@ -130,6 +130,7 @@ fn resolve(mut layers: Layers, path: &Path, sets: &[String]) -> Result<Case, Cas
     let files = layers.files();
     table::inline(&mut layers)?;
     profile_file::inline(&mut layers)?;
+    irregularity::inline(&mut layers)?;
     mesh_file::resolve(&mut layers)?;
     drop_ramp(&mut layers);
     let Layers { mut table, places } = layers;

@@ -41,6 +41,7 @@ const UNITS: &[(&str, &str, f64)] = &[
     ("h", "min", 60.0),
     ("%", "-", 1e-2),
     ("percent", "-", 1e-2),
+    ("deg", "rad", std::f64::consts::PI / 180.0),
 ];
 
 /// What a text is in `unit`, where it is a number with a unit of the same kind; rounded to ten digits, so that 2 mm is

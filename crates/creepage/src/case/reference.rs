@@ -31,6 +31,7 @@ pub static REFERENCES: &[ReferenceCase] = references![
     "zhao-li/d-coulomb-low" "zhao-li/control-weak"
     "verdict/slice" "verdict/falling" "verdict/space"
     "half-space/line" "half-space/line-falling" "half-space/mindlin" "wheel-rail/s1002-60e1"
+    "wheel-rail/corrugation" "wheel-rail/flat"
     "sweeps/base" "sweeps/base-large"
     "sweeps/penalty-limit" "sweeps/tutorial" "sweeps/kt" "sweeps/dt" "sweeps/mesh" "sweeps/law" "sweeps/exact-damping"
     "sweeps/creep-curve" "sweeps/creep-curve-half-space" "sweeps/creep-curve-quasi-static"

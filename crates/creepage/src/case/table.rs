@@ -1,4 +1,4 @@
-//! A friction table in a file of its own, and how it is read into the case.
+//! A table of two columns in a file of its own, and how a friction table is read into the case.
 
 use friction::{Table, TableError};
 use output::files::input;
@@ -19,8 +19,16 @@ pub const REMEDY: &str = "two columns: slip velocity, rising from 0, and coeffic
                           decimal points; in m/s and without a unit, or in the units that a heading names: \
                           `slip (mm/s), mu (%)`; lines that start with # are passed over";
 
-/// The units of the columns in the law.
-const UNITS: [&str; 2] = ["m/s", "-"];
+/// What the columns of a file are, and their units in the case.
+pub(crate) struct Columns {
+    /// Each with its article.
+    pub what: [&'static str; 2],
+    /// SI units.
+    pub units: [&'static str; 2],
+}
+
+const FRICTION: Columns =
+    Columns { what: ["a slip velocity", "a coefficient of friction"], units: ["m/s", "-"] };
 
 /// Replaces a path in `friction.table` by the points of that file: slip velocity (m/s) and coefficient. The path is
 /// relative to the case file that holds it; of an option, to the working directory.
@@ -28,31 +36,48 @@ const UNITS: [&str; 2] = ["m/s", "-"];
 /// # Errors
 /// A file that cannot be read, or is no table.
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
-    let Some(path) = layers.file_at(KEY) else { return Ok(()) };
-    let text = input::text(&path, input::TABLE).map_err(|error| {
-        let shown = get(&layers.table, KEY).and_then(Value::as_str).unwrap_or_default();
-        let (_, relative) = layers.places.folder_of(KEY);
+    let read = |text: &str| Ok(read(text)?.points().to_vec());
+    let points = of_file(layers, KEY, input::TABLE, REMEDY, read)?;
+    if let (Some(points), Some(Value::Table(friction))) = (points, layers.table.get_mut("friction"))
+    {
+        friction.insert("table".into(), points);
+    }
+    Ok(())
+}
+
+/// The points that `read` finds in the file whose path is the value of `key`; none where it is no path.
+///
+/// # Errors
+/// A file that cannot be read, or in which `read` finds a mistake.
+pub(crate) fn of_file(
+    layers: &Layers,
+    key: &str,
+    kind: input::Kind,
+    remedy: &str,
+    read: impl Fn(&str) -> Result<Vec<[f64; 2]>, Mistake>,
+) -> Result<Option<Value>, CaseError> {
+    let Some(path) = layers.file_at(key) else { return Ok(None) };
+    let text = input::text(&path, kind).map_err(|error| {
+        let shown = get(&layers.table, key).and_then(Value::as_str).unwrap_or_default();
+        let (_, relative) = layers.places.folder_of(key);
         layers.error(
-            KEY,
+            key,
             &format!("\"{shown}\": {}: {}", path.display(), error.problem()),
             &format!("give the path of a CSV file, {relative}"),
         )
     })?;
     let points = read(&text).map_err(|Mistake { line, problem, points }| {
         let source = Source::file(CaseFile::Disk(path.clone()), text.clone());
-        let (span, message) = (line_span(&text, line), format!("{KEY}: {problem}"));
+        let (span, message) = (line_span(&text, line), format!("{key}: {problem}"));
         // A file without a point may be any readable file, also a private one: nothing of it is quoted.
         if points {
-            source.error(span, KEY, &message, REMEDY)
+            source.error(span, key, &message, remedy)
         } else {
-            source.unquoted_error(span, KEY, &message, REMEDY)
+            source.unquoted_error(span, key, &message, remedy)
         }
     })?;
-    let value: Vec<_> = points.points().iter().map(|point| Value::from(point.to_vec())).collect();
-    if let Some(Value::Table(friction)) = layers.table.get_mut("friction") {
-        friction.insert("table".into(), Value::Array(value));
-    }
-    Ok(())
+    let value = points.iter().map(|point| Value::from(point.to_vec())).collect();
+    Ok(Some(Value::Array(value)))
 }
 
 /// Bytes of a line, counted from 1.
@@ -73,12 +98,38 @@ pub struct Mistake {
     pub points: bool,
 }
 
-/// The friction table in a text: lines of two numbers with a comma between. Columns whose heading names a unit are
-/// converted.
+/// The friction table in a text.
 ///
 /// # Errors
-/// A line of another kind, a unit that cannot be converted, points that are no friction law.
+/// Those of its columns, and points that are no friction law.
 pub fn read(text: &str) -> Result<Table, Mistake> {
+    let (points, lines) = columns(text, &FRICTION)?;
+    Table::new(points).map_err(|error| {
+        let number = match error {
+            TableError::Range { number, .. } | TableError::Order { number, .. } => number,
+            TableError::Start { .. } | TableError::Empty => 1,
+        };
+        Mistake::of_point(number, &lines, error.to_string())
+    })
+}
+
+impl Mistake {
+    /// In the point with this number, from 1, of those that stand in `lines`.
+    pub(crate) fn of_point(number: usize, lines: &[usize], problem: String) -> Self {
+        let line = lines.get(number - 1).copied().unwrap_or(1);
+        Self { line, problem, points: !lines.is_empty() }
+    }
+}
+
+/// The points in a text and the line of each: lines of two numbers with a comma between. Columns whose heading names a unit
+/// are converted.
+///
+/// # Errors
+/// A line of another kind, a unit that cannot be converted.
+pub(crate) fn columns(
+    text: &str,
+    columns: &Columns,
+) -> Result<(Vec<[f64; 2]>, Vec<usize>), Mistake> {
     let mut points = Vec::new();
     let mut lines = Vec::new();
     let mut heading = None;
@@ -97,13 +148,13 @@ pub fn read(text: &str) -> Result<Table, Mistake> {
         let row_fields = fields(row);
         let numbers: Vec<Option<f64>> = row_fields.iter().map(|field| field.parse().ok()).collect();
         match numbers[..] {
-            [Some(speed), Some(mu)] => {
+            [Some(first), Some(second)] => {
                 if points.is_empty() {
                     // only now is the file known to be a table, of which a message may quote the heading
-                    in_one = units_in_one(heading.as_ref(), &comments)?;
+                    in_one = units_in_one(heading.as_ref(), &comments, columns)?;
                 }
                 // 9 mm/s divided by 1000 are 0.009 m/s, times 1e-3 a bit more
-                points.push([speed / in_one[0], mu / in_one[1]]);
+                points.push([first / in_one[0], second / in_one[1]]);
                 lines.push(line);
             }
             [None, None] if points.is_empty() && heading.is_none() => {
@@ -114,20 +165,13 @@ pub fn read(text: &str) -> Result<Table, Mistake> {
                 let what = if points { format!("'{row}'") } else { "this line".into() };
                 let problem = match row.contains([';', '\t']) {
                     true => format!("{what} has semicolons or tabs, where a comma must stand"),
-                    false => format!("{what} is not a slip velocity and a coefficient"),
+                    false => format!("{what} is not {}", columns.what.join(" and ")),
                 };
                 return Err(Mistake { line, problem, points });
             }
         }
     }
-    Table::new(points).map_err(|error| {
-        let number = match error {
-            TableError::Range { number, .. } | TableError::Order { number, .. } => number,
-            TableError::Start { .. } | TableError::Empty => 1,
-        };
-        let line = lines.get(number - 1).copied().unwrap_or(1);
-        Mistake { line, problem: error.to_string(), points: !lines.is_empty() }
-    })
+    Ok((points, lines))
 }
 
 /// The fields of a line, of which those in quotes may hold commas.
@@ -142,18 +186,22 @@ fn fields(row: &str) -> Vec<&str> {
 
 type Heading<'a> = (usize, Vec<&'a str>);
 
-/// How many units of each column are one of the law.
-fn units_in_one(heading: Option<&Heading>, comments: &[Heading]) -> Result<[f64; 2], Mistake> {
+/// How many units of each column are one of the case.
+fn units_in_one(
+    heading: Option<&Heading>,
+    comments: &[Heading],
+    Columns { what, units }: &Columns,
+) -> Result<[f64; 2], Mistake> {
     let mistake = |line: usize, problem: String| Err(Mistake { line, problem, points: true });
     if let Some((line, names)) = heading {
         let mut in_one = [1.0; 2];
-        for ((in_one, name), unit) in in_one.iter_mut().zip(names).zip(UNITS) {
+        for ((in_one, name), (unit, wanted)) in
+            in_one.iter_mut().zip(names).zip(units.iter().zip(what))
+        {
             match unit_size(name, unit) {
                 Ok(size) => *in_one = rounded(1.0 / size),
                 Err(other) => {
-                    let wanted =
-                        if unit == "-" { "coefficient of friction" } else { "slip velocity" };
-                    let problem = format!("'{name}': '{other}' is no known unit of a {wanted}");
+                    let problem = format!("'{name}': '{other}' is no known unit of {wanted}");
                     return mistake(*line, problem);
                 }
             }
@@ -162,8 +210,8 @@ fn units_in_one(heading: Option<&Heading>, comments: &[Heading]) -> Result<[f64;
     }
     // a heading behind a # is passed over, and so would be its unit
     for (line, names) in comments {
-        let [slip, coefficient] = names[..] else { continue };
-        for (name, unit) in [(slip, UNITS[0]), (coefficient, UNITS[1])] {
+        let [first, second] = names[..] else { continue };
+        for (name, unit) in [(first, units[0]), (second, units[1])] {
             if unit_size(name, unit).is_ok_and(|size| size != 1.0) {
                 let problem =
                     format!("'{name}' names a unit, but stands in a line that starts with #");

@@ -4,6 +4,7 @@ mod choices;
 mod friction;
 mod geometry;
 mod half_space;
+mod irregularity;
 mod path;
 mod records;
 mod rules;
@@ -70,6 +71,7 @@ pub fn check(case: &Case) -> Result<(), CaseError> {
     // The path is judged only for a case whose shape makes sense.
     if found.errors.is_empty() {
         path::check(case, &mut found);
+        irregularity::check(case, &mut found);
         if !case.is_half_space() {
             sideways::check_drift(case, &mut found);
         }

@@ -26,6 +26,15 @@ pub enum ScenarioError {
         "give a mesh one element wide, extruded along y, or mesh.plane_strain = false"
     ))]
     Slice(#[from] mesh::NoSlice),
+    /// Heights of a surface that cannot be read.
+    #[error("{key}: {problem}")]
+    #[diagnostic(help("give a formula, or points in m or rad and m"))]
+    Heights {
+        /// The key.
+        key: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
     /// The mesh of a case without one.
     #[error("model = \"half-space\": the bodies have no mesh")]
     #[diagnostic(help("set model = \"finite-elements\""))]

@@ -104,7 +104,7 @@ pub fn bodies(foreign: &Foreign, names: &SetNames, unit: Unit) -> Result<Importe
             outside[body].iter().zip(&chosen).filter(|c| *c.1).map(|c| *c.0).collect();
         let body = &mut imported.mesh.bodies[body];
         body.node_sets.insert(ours.into(), nodes_of(&faces));
-        body.surfaces.insert(ours.into(), Surface { faces, smooth: None });
+        body.surfaces.insert(ours.into(), Surface { faces, smooth: None, irregularity: None });
     }
     disjoint(&imported, 0, ("hub", &names.hub), ("tread", &names.tread))?;
     disjoint(&imported, 1, ("bottom", &names.clamp), ("top", &names.top))?;

@@ -90,8 +90,8 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         }
         let smooth = shape.exact.then_some(smooth);
         let body = &mut imported.mesh.bodies[body];
-        body.surfaces.insert(ours.into(), Surface { faces: all, smooth });
-        body.surfaces.insert("zone".into(), Surface { faces, smooth });
+        body.surfaces.insert(ours.into(), Surface { faces: all, smooth, irregularity: None });
+        body.surfaces.insert("zone".into(), Surface { faces, smooth, irregularity: None });
         body.node_sets.insert("zone".into(), nodes);
     }
     let [disk, bar] = edges;
@@ -186,7 +186,7 @@ fn ends(imported: &mut Imported, shape: &Shape) -> Result<(), ImportError> {
         if faces.is_empty() {
             return Err(Fault::NoEnd { which, at: digits(at) }.nowhere());
         }
-        ends.push((which, Surface { faces, smooth: None }));
+        ends.push((which, Surface { faces, smooth: None, irregularity: None }));
     }
     let nodes = nodes_of(&ends.iter().flat_map(|e| &e.1.faces).copied().collect::<Vec<_>>());
     let bar = &mut imported.mesh.bodies[1];

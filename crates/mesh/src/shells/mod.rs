@@ -157,7 +157,10 @@ impl Shells {
         let sets = sets.iter().map(|(name, flags)| ((*name).to_owned(), self.nodes(*flags)));
         let node_sets = sets.collect();
         let surfaces = surfaces.iter().map(|(name, flag, smooth)| {
-            ((*name).to_owned(), Surface { faces: self.faces(*flag), smooth: *smooth })
+            (
+                (*name).to_owned(),
+                Surface { faces: self.faces(*flag), smooth: *smooth, irregularity: None },
+            )
         });
         let surfaces = surfaces.collect();
         let body = &mut self.mesh.bodies[0];

@@ -25,6 +25,8 @@ pub const CASE: Kind = Kind { what: "a case file", most: 4 * MIB };
 /// A friction table. The resolved case repeats its points in up to eight times as many bytes, and must still
 /// be readable as a [`CASE`].
 pub const TABLE: Kind = Kind { what: "a friction table", most: 512 * KIB };
+/// Heights of a running surface, as long for the same reason.
+pub const HEIGHTS: Kind = Kind { what: "a table of heights", most: 512 * KIB };
 /// A profile of a wheel or a rail.
 pub const PROFILE: Kind = Kind { what: "a profile", most: 512 * KIB };
 /// A mesh file. It is read whole; at about 100 bytes per node and element, the largest meshes

@@ -3,6 +3,7 @@
 mod any_input;
 mod creepage;
 mod half_space;
+mod irregularity;
 mod materials;
 mod reference;
 mod refusals;

@@ -82,7 +82,12 @@ fn ranges(form: Form) -> Vec<Range> {
         Form::Count(low, high) => {
             vec![Range { low: low as f64, high: high as f64, or_zero: false }]
         }
-        Form::Flag | Form::Word(_) | Form::Words(_) | Form::Text | Form::Profile => Vec::new(),
+        Form::Flag
+        | Form::Word(_)
+        | Form::Words(_)
+        | Form::Text
+        | Form::Profile
+        | Form::Heights(_) => Vec::new(),
     }
 }
 

@@ -25,6 +25,10 @@ pub fn unsayable(case: &Case) -> Vec<String> {
             "friction.law: their friction has FS, FD and DC, \"coulomb\", \"exponential\" and \"polach\" alone",
         ),
         (case.friction.memory.is_some(), "friction.memory: their friction has none"),
+        (
+            case.bar.surface.is_some() || case.disk.out_of_round.is_some(),
+            "bar.surface, disk.out_of_round: heights that the mesh does not have",
+        ),
         (mesh.window.is_some(), "mesh.window: a mesh that moves along"),
         (drive.spin != 0.0, "drive.spin: a hub that turns about two axes"),
         (

@@ -1,11 +1,13 @@
 //! The meshes of a disk and a bar, with their sets and masses.
 
 use super::mesh_file;
+use crate::case::irregularity::{Coordinate, SurfaceHeights};
 use crate::case::schema::{Case, ContactLayers, Ends, Symmetry};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::memory::enough_for_mesh;
 use crate::scenario::model::{BAR, DISK, Model};
-use mesh::{FineZone, Mesh};
+use mesh::{Along, FineZone, Irregularity, Mesh, Surface};
+use nalgebra::Vector3;
 use solid::{Element, Level, Material, Volumetric};
 
 /// The model of a case: its mesh is generated, or read from its file.
@@ -55,7 +57,7 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         sliding: sliding(case, &mesh),
         paired,
         mass,
-        surfaces: [surface(DISK, "tread"), surface(BAR, "top")],
+        surfaces: irregular(case, [surface(DISK, "tread"), surface(BAR, "top")])?,
         zones: [surface(DISK, "zone").faces, surface(BAR, "zone").faces],
         hub: set(DISK, "hub"),
         clamped: set(BAR, "bottom"),
@@ -63,6 +65,23 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         mesh,
         notes,
     })
+}
+
+/// The running surfaces of disk and bar with the irregularities of the case.
+fn irregular(
+    case: &Case,
+    [mut tread, mut top]: [Surface; 2],
+) -> Result<[Surface; 2], ScenarioError> {
+    let axis = Vector3::new(0.0, 0.0, case.disk.radius);
+    let with = |key, given: &Option<SurfaceHeights>, along, over| {
+        let heights = given.as_ref().map(|given| given.heights(over)).transpose();
+        let heights = heights.map_err(|problem| ScenarioError::Heights { key, problem })?;
+        Ok::<_, ScenarioError>(heights.map(|heights| Irregularity { along, heights }))
+    };
+    let round = &case.disk.out_of_round;
+    tread.irregularity = with("disk.out_of_round", round, Along::Around(axis), Coordinate::Angle)?;
+    top.irregularity = with("bar.surface", &case.bar.surface, Along::X, Coordinate::X)?;
+    Ok([tread, top])
 }
 
 /// Number of elements of the mesh of a case, which is made for it.

@@ -84,6 +84,12 @@ impl Bodies<'_> {
         u
     }
 
+    /// How far irregular surfaces lie over the smooth ones at the first point of contact (m).
+    fn height(&self) -> f64 {
+        let irregular = self.model.surfaces.iter().filter_map(|side| side.irregularity.as_ref());
+        irregular.map(|surface| surface.heights.at(0.0)).sum()
+    }
+
     /// By Newton's method.
     fn equilibrium(
         &mut self,
@@ -113,7 +119,7 @@ impl Bodies<'_> {
             tolerance: case.preload_tolerance(),
             max_iterations: case.preload_iterations() as usize,
         };
-        let start = self.lowered(start_depth(case));
+        let start = self.lowered(start_depth(case) - self.height());
         let (mut springs, mut gaps);
         let contact = match case.contact.enforcement {
             Enforcement::Penalty => {
@@ -156,7 +162,7 @@ impl Bodies<'_> {
             omega: rolling_omega(case),
             mass: &model.mass,
             stiffness: &stiffness,
-            start: -start_depth(case),
+            start: self.height() - start_depth(case),
             tolerance: case.preload_tolerance(),
             max_iterations: case.preload_iterations() as usize,
         };

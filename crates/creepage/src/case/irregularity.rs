@@ -1,0 +1,183 @@
+//! Heights of a running surface over its smooth shape: by a formula, or by points, which may stand in a file of their own.
+
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
+
+use friction::Formula;
+use mesh::{HeightTable, Heights};
+use output::files::input;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use toml::Value;
+
+use crate::case::error::CaseError;
+use crate::case::layers::Layers;
+use crate::case::table::{Columns, Mistake, columns, of_file};
+use crate::case::value::points;
+
+/// Most characters of a formula.
+const LONGEST_FORMULA: usize = 4000;
+
+/// The keys of heights, their section and name, and over what they are.
+const KEYS: [(&str, &str, Coordinate); 2] =
+    [("disk", "out_of_round", Coordinate::Angle), ("bar", "surface", Coordinate::X)];
+
+/// What the heights of a surface are given over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coordinate {
+    /// x along the bar (m).
+    X,
+    /// The angle around the disk (rad), which repeats after a turn.
+    Angle,
+}
+
+/// Heights of a running surface over its smooth shape (m).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SurfaceHeights {
+    /// Path of a CSV file with two columns, coordinate and height. A case that is read has its points in their place.
+    File(String),
+    /// Formula over `x` (m) or `angle` (rad, from -pi to pi).
+    Formula(String),
+    /// Points (coordinate, height), coordinates rising: linear between them.
+    Points(Vec<[f64; 2]>),
+}
+
+impl SurfaceHeights {
+    /// The heights as a function of the coordinate.
+    ///
+    /// # Errors
+    /// Why a formula or points give none.
+    pub fn heights(&self, over: Coordinate) -> Result<Arc<dyn Heights>, String> {
+        match self {
+            Self::File(path) => Err(format!("the file \"{path}\" was not read")),
+            Self::Formula(text) => Ok(Arc::new(Written::parse(text, over)?)),
+            Self::Points(points) => Ok(Arc::new(over.table(points.clone())?)),
+        }
+    }
+}
+
+impl Coordinate {
+    /// What a value may be, as a noun phrase.
+    pub(crate) fn allowed(self) -> String {
+        let name = self.name();
+        format!(
+            "{{ formula = \"...\" }} over {name}, {{ file = \"...\" }} of two columns, or {{ points = [[{name}, height], ...] }}, \
+             heights at most {} m",
+            mesh::HIGHEST
+        )
+    }
+
+    /// Its name in a formula.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::X => "x",
+            Self::Angle => "angle",
+        }
+    }
+
+    fn columns(self) -> Columns {
+        match self {
+            Self::X => Columns { what: ["a place x", "a height"], units: ["m", "m"] },
+            Self::Angle => Columns { what: ["an angle", "a height"], units: ["rad", "m"] },
+        }
+    }
+
+    /// Points as heights.
+    pub(crate) fn table(self, points: Vec<[f64; 2]>) -> Result<HeightTable, String> {
+        self.checked(points).map_err(|error| error.to_string())
+    }
+
+    fn checked(self, points: Vec<[f64; 2]>) -> Result<HeightTable, mesh::HeightError> {
+        match self {
+            Self::X => HeightTable::along(points),
+            Self::Angle => HeightTable::around(points),
+        }
+    }
+
+    /// The points in the text of a file.
+    fn read(self, text: &str) -> Result<Vec<[f64; 2]>, Mistake> {
+        let (points, lines) = columns(text, &self.columns())?;
+        let checked = self.checked(points.clone());
+        checked.map_err(|e| Mistake::of_point(e.number(), &lines, e.to_string()))?;
+        Ok(points)
+    }
+}
+
+/// Heights by a formula.
+#[derive(Clone, Debug)]
+struct Written {
+    formula: Formula,
+    over: Coordinate,
+}
+
+impl Written {
+    fn parse(text: &str, over: Coordinate) -> Result<Self, String> {
+        let length = text.chars().count();
+        if length > LONGEST_FORMULA {
+            return Err(format!(
+                "the formula has {length} characters, more than {LONGEST_FORMULA}"
+            ));
+        }
+        let names = match over {
+            Coordinate::X => "x, the place along the bar in m, pi",
+            Coordinate::Angle => "angle, the angle around the disk in rad, pi",
+        };
+        let formula = Formula::parse(text, &[over.name(), "pi"], names);
+        Ok(Self { formula: formula.map_err(|error| error.to_string())?, over })
+    }
+}
+
+impl Heights for Written {
+    fn at(&self, coordinate: f64) -> f64 {
+        let within = match self.over {
+            Coordinate::X => coordinate,
+            Coordinate::Angle => coordinate - TAU * ((coordinate + PI) / TAU).floor(),
+        };
+        self.formula.value([within, PI])
+    }
+}
+
+/// Whether a value is a formula or points, right or wrong.
+pub(crate) fn is_written(value: &Value) -> bool {
+    let Some(table) = value.as_table().filter(|table| table.len() == 1) else { return false };
+    table.get("formula").is_some_and(Value::is_str)
+        || table.get("points").and_then(points).is_some()
+}
+
+/// Why a formula or points give no heights, if they do not.
+pub(crate) fn mistake(value: &Value, over: Coordinate) -> Option<String> {
+    let formula = value.get("formula").and_then(Value::as_str);
+    let parsed = formula.map_or(Ok(()), |text| Written::parse(text, over).map(|_| ()));
+    let points = value.get("points").and_then(points);
+    parsed.and_then(|()| points.map_or(Ok(()), |points| over.table(points).map(|_| ()))).err()
+}
+
+/// Replaces the path in `bar.surface` and `disk.out_of_round` by the points of that file. The path is relative to the case file
+/// that holds it; of an option, to the working directory.
+///
+/// # Errors
+/// A file that cannot be read, or gives no heights.
+pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
+    for (section, name, over) in KEYS {
+        let remedy = format!(
+            "two columns: {}, rising, and height, with a comma between and decimal points; in {} and m without a unit, \
+             or in the units that a heading names: `{} ({}), height (um)`",
+            over.name(),
+            over.columns().units[0],
+            over.name(),
+            if over == Coordinate::X { "mm" } else { "deg" }
+        );
+        let key = format!("{section}.{name}.file");
+        let read = |text: &str| over.read(text);
+        let points = of_file(layers, &key, input::HEIGHTS, &remedy, read)?;
+        let section = layers.table.get_mut(section).and_then(Value::as_table_mut);
+        let given = section.and_then(|section| section.get_mut(name)?.as_table_mut());
+        // a second entry beside the file is refused where the key is checked
+        if let (Some(points), Some(given)) = (points, given.filter(|given| given.len() == 1)) {
+            given.clear();
+            given.insert("points".into(), points);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,270 @@
+//! Irregularities of running surfaces: corrugation, rough rails, flats and wheels out of round.
+//!
+//! They change the surface of a body and not its mesh: neither mass nor stiffness.
+
+use nalgebra::Vector3;
+use std::f64::consts::TAU;
+use std::fmt::Debug;
+use std::sync::Arc;
+use thiserror::Error;
+
+/// Largest height above or below the smooth surface (m). Larger ones are taken for millimetres.
+pub const HIGHEST: f64 = 5e-3;
+/// Longest span of a table along x (m).
+const LONGEST: f64 = 1e3;
+/// Angles may exceed a turn by this part of it: 6.2832 is a turn.
+const TURN: f64 = 1e-4;
+/// What a wheel's height after a turn may differ from that before it (m).
+pub const CLOSED: f64 = 1e-8;
+
+/// Heights over a coordinate of the material (m).
+pub trait Heights: Debug + Send + Sync {
+    /// Height at a coordinate, in m or rad.
+    fn at(&self, coordinate: f64) -> f64;
+}
+
+/// The coordinate of the material that an irregularity depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Along {
+    /// x (m); heights are along z.
+    X,
+    /// The angle about the axis along y through this point (rad): zero below it, positive towards +x, where material touches
+    /// later if the body rolls towards +x. Heights are along the radius.
+    Around(Vector3<f64>),
+}
+
+impl Along {
+    /// The coordinate of a place of the undeformed body (m or rad).
+    pub fn coordinate(&self, at: Vector3<f64>) -> f64 {
+        match self {
+            Self::X => at.x,
+            Self::Around(axis) => libm::atan2(at.x - axis.x, axis.z - at.z),
+        }
+    }
+
+    /// The unit vector along which the height at a place of the undeformed body is measured.
+    pub fn outward(&self, at: Vector3<f64>) -> Vector3<f64> {
+        match self {
+            Self::X => Vector3::z(),
+            Self::Around(axis) => {
+                let arm = Vector3::new(at.x - axis.x, 0.0, at.z - axis.z);
+                arm / libm::hypot(arm.x, arm.z).max(f64::MIN_POSITIVE)
+            }
+        }
+    }
+}
+
+/// What a surface has beyond its smooth shape.
+#[derive(Clone, Debug)]
+pub struct Irregularity {
+    /// Its coordinate.
+    pub along: Along,
+    /// Its heights.
+    pub heights: Arc<dyn Heights>,
+}
+
+/// Heights that are linear between points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightTable {
+    /// Coordinate and height (m), coordinates rising.
+    points: Vec<[f64; 2]>,
+    /// After which they repeat (rad).
+    period: Option<f64>,
+}
+
+/// Why points give no heights.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum HeightError {
+    /// There is no line between them.
+    #[error("there must be two points or more")]
+    Few,
+    /// A coordinate that is not finite, or absurd.
+    #[error("point {number} lies at {at}, which must be finite and at most {LONGEST} in size")]
+    Place {
+        /// Number of the point, from 1.
+        number: usize,
+        /// Its coordinate.
+        at: f64,
+    },
+    /// A height that is not finite, or absurd.
+    #[error(
+        "point {number}, at {at}, has the height {height} m, which must be finite and at most {HIGHEST} m in size: \
+         is it in mm or um?"
+    )]
+    Height {
+        /// Number of the point, from 1.
+        number: usize,
+        /// Its coordinate.
+        at: f64,
+        /// Its height.
+        height: f64,
+    },
+    /// Coordinates do not rise.
+    #[error("point {number} lies at {at}, which must be above that of the point before, {before}")]
+    Order {
+        /// Number of the point, from 1.
+        number: usize,
+        /// Its coordinate.
+        at: f64,
+        /// That of the point before.
+        before: f64,
+    },
+    /// More than a turn.
+    #[error("the angles span {span} rad, more than a turn: are they in degrees?")]
+    Turn {
+        /// Number of the last point, from 1.
+        number: usize,
+        /// What they span.
+        span: f64,
+    },
+    /// A whole turn after which the height is another one.
+    #[error("after a turn the height is {last} m, at its beginning {first} m: they must be equal")]
+    Open {
+        /// Number of the last point, from 1.
+        number: usize,
+        /// First height (m).
+        first: f64,
+        /// Last height (m).
+        last: f64,
+    },
+}
+
+impl HeightError {
+    /// Number of the point that is wrong, from 1.
+    pub fn number(&self) -> usize {
+        match *self {
+            Self::Few => 1,
+            Self::Place { number, .. }
+            | Self::Height { number, .. }
+            | Self::Order { number, .. }
+            | Self::Turn { number, .. }
+            | Self::Open { number, .. } => number,
+        }
+    }
+}
+
+impl HeightTable {
+    /// Heights (m) over x (m). Beyond the ends those there go on.
+    ///
+    /// # Errors
+    /// Points that are too few, not finite, in no order, or too high.
+    pub fn along(points: Vec<[f64; 2]>) -> Result<Self, HeightError> {
+        if points.len() < 2 {
+            return Err(HeightError::Few);
+        }
+        for (i, (&[at, height], number)) in points.iter().zip(1..).enumerate() {
+            if !(at.is_finite() && at.abs() <= LONGEST) {
+                return Err(HeightError::Place { number, at });
+            }
+            if !(height.is_finite() && height.abs() <= HIGHEST) {
+                return Err(HeightError::Height { number, at, height });
+            }
+            if i > 0 && at <= points[i - 1][0] {
+                return Err(HeightError::Order { number, at, before: points[i - 1][0] });
+            }
+        }
+        Ok(Self { points, period: None })
+    }
+
+    /// Heights (m) over the angle (rad), which repeat after a turn. They are linear also from the last point to the first of
+    /// the next turn.
+    ///
+    /// # Errors
+    /// As those of [`Self::along`], and angles that span more than a turn, or one after which the height is another one.
+    pub fn around(points: Vec<[f64; 2]>) -> Result<Self, HeightError> {
+        let Self { points, .. } = Self::along(points)?;
+        let (number, [start, first], [end, last]) =
+            (points.len(), points[0], points[points.len() - 1]);
+        let span = end - start;
+        if span > TAU * (1.0 + TURN) {
+            return Err(HeightError::Turn { number, span });
+        }
+        if span > TAU * (1.0 - TURN) && (last - first).abs() > CLOSED {
+            return Err(HeightError::Open { number, first, last });
+        }
+        Ok(Self { points, period: Some(TAU) })
+    }
+
+    /// The first coordinate and the last.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.points[0][0], self.points[self.points.len() - 1][0]]
+    }
+}
+
+impl Heights for HeightTable {
+    fn at(&self, coordinate: f64) -> f64 {
+        let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
+        let (s, after) = match self.period {
+            Some(turn) => {
+                let turns = ((coordinate - first[0]) / turn).floor();
+                (coordinate - turns * turn, [first[0] + turn, first[1]])
+            }
+            None => (coordinate, [f64::INFINITY, last[1]]),
+        };
+        let next = self.points.partition_point(|point| point[0] <= s);
+        let [s0, z0] = next.checked_sub(1).map_or(first, |before| self.points[before]);
+        let [s1, z1] = self.points.get(next).copied().unwrap_or(after);
+        if s <= s0 || s1 <= s0 || z0 == z1 {
+            return z0;
+        }
+        z0 + (z1 - z0) * ((s - s0) / (s1 - s0)).min(1.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn heights_are_linear_between_points_and_go_on_beyond_them() {
+        let table = HeightTable::along(vec![[-1.0, 1e-3], [0.0, 0.0], [2.0, -2e-3]]).unwrap();
+        for (x, z) in
+            [(-9.0, 1e-3), (-1.0, 1e-3), (-0.5, 5e-4), (0.0, 0.0), (1.0, -1e-3), (7.0, -2e-3)]
+        {
+            assert!((table.at(x) - z).abs() < 1e-18, "{x}");
+        }
+        assert_eq!(table.ends(), [-1.0, 2.0]);
+        assert!(table.at(f64::NAN).is_finite());
+    }
+
+    #[test]
+    fn heights_of_a_wheel_repeat_after_a_turn_and_join_the_last_point_to_the_first() {
+        let flat = HeightTable::around(vec![[-0.1, 0.0], [0.0, -1e-3], [0.1, 0.0]]).unwrap();
+        for turn in -2..=2 {
+            let at = |angle: f64| flat.at(angle + f64::from(turn) * TAU);
+            assert!((at(0.0) + 1e-3).abs() < 1e-15 && (at(0.05) + 5e-4).abs() < 1e-15);
+            assert!(at(3.0) == 0.0 && at(-0.2) == 0.0);
+        }
+        let open = HeightTable::around(vec![[0.0, 0.0], [5.0, 1e-3]]).unwrap();
+        assert!((open.at(0.5 * (5.0 + TAU)) - 5e-4).abs() < 1e-15);
+        assert!(HeightTable::around(vec![[0.0, 1e-4], [3.0, 0.0], [6.2832, 1e-4]]).is_ok());
+    }
+
+    #[test]
+    fn points_that_give_no_heights_are_told_with_their_number() {
+        let along = |points: &[[f64; 2]]| HeightTable::along(points.to_vec()).unwrap_err();
+        let around = |points: &[[f64; 2]]| HeightTable::around(points.to_vec()).unwrap_err();
+        for (error, number, words) in [
+            (along(&[]), 1, "two points"),
+            (along(&[[0.0, 0.0]]), 1, "two points"),
+            (along(&[[0.0, 0.0], [1.0, f64::NAN]]), 2, "height NaN"),
+            (along(&[[0.0, 0.0], [1.0, 0.02]]), 2, "in mm or um?"),
+            (along(&[[0.0, 0.0], [0.0, 1e-3]]), 2, "above that of the point before"),
+            (along(&[[0.0, 0.0], [f64::INFINITY, 1e-3]]), 2, "finite"),
+            (around(&[[0.0, 0.0], [360.0, 0.0]]), 2, "degrees"),
+            (around(&[[0.0, 0.0], [6.2831, 1e-4]]), 2, "must be equal"),
+        ] {
+            assert!(error.number() == number && error.to_string().contains(words), "{error}");
+        }
+    }
+
+    #[test]
+    fn the_angle_counts_towards_the_material_that_touches_later() {
+        let along = Along::Around(Vector3::new(0.0, 0.0, 0.5));
+        let at = Vector3::new(0.5 * libm::sin(0.1), 0.2, 0.5 - 0.5 * libm::cos(0.1));
+        assert!((along.coordinate(at) - 0.1).abs() < 1e-15);
+        let outward = Vector3::new(libm::sin(0.1), 0.0, -libm::cos(0.1));
+        assert!((along.outward(at) - outward).norm() < 1e-15);
+    }
+}
