@@ -22,6 +22,11 @@ const LONGEST_FORMULA: usize = 4000;
 const KEYS: [(&str, &str, Coordinate); 2] =
     [("disk", "out_of_round", Coordinate::Angle), ("bar", "surface", Coordinate::X)];
 
+/// The keys of files of heights.
+pub(crate) fn file_keys() -> impl Iterator<Item = String> {
+    KEYS.iter().map(|(section, name, _)| format!("{section}.{name}.file"))
+}
+
 /// What the heights of a surface are given over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {
@@ -159,7 +164,7 @@ pub(crate) fn mistake(value: &Value, over: Coordinate) -> Option<String> {
 /// # Errors
 /// A file that cannot be read, or gives no heights.
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
-    for (section, name, over) in KEYS {
+    for (key, (section, name, over)) in file_keys().zip(KEYS) {
         let remedy = format!(
             "two columns: {}, rising, and height, with a comma between and decimal points; in {} and m without a unit, \
              or in the units that a heading names: `{} ({}), height (um)`",
@@ -168,7 +173,6 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
             over.name(),
             if over == Coordinate::X { "mm" } else { "deg" }
         );
-        let key = format!("{section}.{name}.file");
         let read = |text: &str| over.read(text);
         let points = of_file(layers, &key, input::HEIGHTS, &remedy, read)?;
         let section = layers.table.get_mut(section).and_then(Value::as_table_mut);

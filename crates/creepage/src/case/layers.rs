@@ -12,10 +12,10 @@ use toml::{Table, Value};
 
 use crate::case::error::{CaseError, KeyError};
 use crate::case::file::CaseFile;
-use crate::case::friction_law;
 use crate::case::keys::{self, KEYS};
 use crate::case::places::{Origin, Origins, Places, Source, origins_of};
 use crate::case::value::{get, join, remove};
+use crate::case::{friction_law, irregularity};
 
 /// A chain of `extends` longer than this is taken for a mistake.
 const LONGEST_CHAIN: usize = 16;
@@ -131,8 +131,8 @@ impl Layers {
     /// The files that were read, and those that `friction.table`, `bar.surface` and `disk.out_of_round` name.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.places.files().cloned().collect();
-        let tables = ["friction.table", "bar.surface.file", "disk.out_of_round.file"];
-        files.extend(tables.iter().filter_map(|key| self.file_at(key)));
+        files.extend(self.file_at("friction.table"));
+        files.extend(irregularity::file_keys().filter_map(|key| self.file_at(&key)));
         files
     }
 
