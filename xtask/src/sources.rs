@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::Command;
 
-use crate::step::{Ended, Outcome, cargo, done, missing, output, python, sample};
+use crate::step::{Ended, Outcome, cargo, done, missing, output, part, python};
 
 /// The machines that the sources must compile for, besides the one at hand.
 const TARGETS: [&str; 3] =
@@ -32,7 +32,7 @@ pub fn other_machines(root: &Path) -> Ended {
         eprintln!("warning: {target} was skipped: `rustup target add {target}`");
     }
     let mut outcome = Outcome::Skipped;
-    let chosen = sample(root).map(|third| third % here.len().max(1));
+    let chosen = part(root).map(|part| part.div_ceil(2) % here.len().max(1));
     for (_, target) in here.into_iter().enumerate().filter(|(n, _)| chosen.is_none_or(|c| c == *n))
     {
         // where the operating system is the same, the crates with instructions of a processor

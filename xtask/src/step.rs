@@ -124,11 +124,6 @@ pub fn part(root: &Path) -> Option<usize> {
     Some(commit.unwrap_or_default().bytes().map(usize::from).sum::<usize>() % PARTS)
 }
 
-/// Which third of other long checks: 0, 1 or 2.
-pub fn sample(root: &Path) -> Option<usize> {
-    part(root).map(|part| part % 3)
-}
-
 /// The part for programs of tests, which read it from this variable: `K/N`.
 pub fn sample_variable(root: &Path) -> Option<(&'static str, String)> {
     part(root).map(|part| ("CREEPAGE_SAMPLE", format!("{part}/{PARTS}")))

@@ -6,18 +6,15 @@ use std::process::Command;
 
 use crate::step::{Ended, PIP, done, files, missing, python, sample_variable, search, target};
 
-/// Options of maturin that link for every Linux with glibc 2.17 or newer.
-const PORTABLE: [&str; 3] = ["--zig", "--compatibility", "manylinux2014"];
-
 /// Builds the wheel, for other machines too if `portable`.
 pub fn wheel(root: &Path, portable: bool) -> Result<PathBuf, String> {
     let python = python(root)?;
     if !portable {
         return build(root, &python, &[]);
     }
-    // the linker of portable wheels, beside maturin
+    // the linker of wheels for every Linux with glibc 2.17 or newer, beside maturin
     done(Command::new(&python).args(PIP).arg("ziglang==0.17.1"))?;
-    build(root, &python, &PORTABLE)
+    build(root, &python, &["--zig", "--compatibility", "manylinux2014"])
 }
 
 /// Builds the wheel, tries it in a clean environment, installs it in that of the checks, and runs the tests of the package
