@@ -20,7 +20,7 @@ const LONGEST_FORMULA: usize = 4000;
 
 /// The keys of heights, their section and name, and over what they are.
 const KEYS: [(&str, &str, Coordinate); 2] =
-    [("disk", "out_of_round", Coordinate::Angle), ("bar", "surface", Coordinate::X)];
+    [("bar", "surface", Coordinate::X), ("disk", "out_of_round", Coordinate::Angle)];
 
 /// The keys of files of heights.
 pub(crate) fn file_keys() -> impl Iterator<Item = String> {
