@@ -49,7 +49,8 @@ fn build(root: &Path, python: &Path, options: &[&str]) -> Result<PathBuf, String
     if folder.exists() {
         fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     }
-    let maturin = ["-m", "maturin", "build", "--release", "--quiet", "--manifest-path"];
+    let maturin =
+        "-m maturin build --release --quiet --compression-level 9 --manifest-path".split(' ');
     let mut command = Command::new(python);
     command.args(maturin).arg(root.join("crates/python/Cargo.toml"));
     command.arg("--interpreter").arg(python).arg("--out").arg(&folder).args(options);
