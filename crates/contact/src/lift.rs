@@ -1,9 +1,10 @@
-//! Irregularities of the surfaces, which the mesh does not have: contact sees the nodes of an irregular surface moved by their heights.
+//! Irregularities of the surfaces, which the mesh does not have: contact sees the nodes of an irregular surface moved by their
+//! heights.
 //!
 //! A node `n` is at `x_n + (h/l) (x_n - x_in)` with `x = X + u`, the height `h` of its material, and the node `in` across the
-//! element from the face, whose edge to `n` reaches `l` along the height in the reference configuration: the height turns with the
-//! body. Facets tilt with it, and so gaps, normals and the search follow. Velocities and forces stay those of the nodes: the radius of a wheel
-//! that is out of round by `h` is missed by `h/R` in the slip.
+//! element from the face, whose edge to `n` reaches `l` along the height in the reference configuration: the height turns with
+//! the body. Facets tilt with it, and so gaps, normals and the search follow. Velocities and forces stay those of the nodes: what
+//! `h` adds to the radius of a wheel is missing in the slip velocity, a part `h/R` of the rolling speed.
 
 use crate::ContactError;
 use mesh::{Face, HEX_EDGES, Heights, Irregularity, Mesh, Padded, Surface};
