@@ -167,7 +167,7 @@ fn wheel_and_bar(size: f64) -> Result<Influence, Cause> {
     let shape = Bar { length: 0.24, width: 0.06, height: 0.07, crown: Some(0.30), start: -0.12 };
     let bar = mesh::bar(&shape, &zone)?;
     let top = &bar.bodies[0].surfaces["zone"];
-    let smooth = top.smooth.ok_or("the bar has no crown")?;
+    let smooth = top.smooth.as_ref().ok_or("the bar has no crown")?;
     let within = |x: Vector3<f64>| x[0].abs() < reach[0] && x[1].abs() < reach[1];
     let tread = &disk.bodies[0].surfaces["zone"];
     let points = Point::on_surface(&disk, tread, within, |x| -smooth.offset(x));

@@ -229,7 +229,7 @@ impl Inclination {
     pub fn at_corner(surface: &ContactSurface, face: u32, corner: u8) -> Option<Self> {
         let [xi, eta] = CORNERS[usize::from(corner)];
         let reference = &surface.faces[face as usize].reference;
-        surface.smooth.map(|smooth| Self::of(&smooth, reference, xi, eta))
+        surface.smooth.as_ref().map(|smooth| Self::of(smooth, reference, xi, eta))
     }
 }
 

@@ -110,7 +110,7 @@ impl ContactSurface {
             mass_per_area: vec![0.0; nodes.len()],
             scaled_stiffness: vec![0.0; nodes.len()],
             faces: Vec::with_capacity(surface.faces.len()),
-            smooth: surface.smooth,
+            smooth: surface.smooth.clone(),
             origin: 0.0,
             symmetric: mesh.symmetric,
             plane: Vec::new(),

@@ -69,7 +69,7 @@ fn graded(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
     Ok(made.named(
         &[("top", TOP), ("bottom", BOTTOM), ("ends", REAR | FRONT), ("zone", ZONE)],
         &[
-            ("top", TOP, smooth),
+            ("top", TOP, smooth.clone()),
             ("zone", ZONE, smooth),
             ("rear", REAR, None),
             ("front", FRONT, None),
@@ -115,9 +115,12 @@ fn tensor(shape: &Bar, zone: &FineZone) -> Result<Mesh, MeshError> {
         body.node_sets.insert(name.to_owned(), nodes);
     }
     let smooth = Some(SmoothSurface::Top { apex: 0.0, crown });
-    for (name, faces, smooth) in
-        [("top", top, smooth), ("zone", zone, smooth), ("rear", rear, None), ("front", front, None)]
-    {
+    for (name, faces, smooth) in [
+        ("top", top, smooth.clone()),
+        ("zone", zone, smooth),
+        ("rear", rear, None),
+        ("front", front, None),
+    ] {
         body.surfaces.insert(name.to_owned(), Surface { faces, smooth, irregularity: None });
     }
     Ok(mesh)

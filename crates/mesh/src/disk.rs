@@ -90,7 +90,7 @@ fn graded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
     let smooth = Some(SmoothSurface::Tread { centre: radius * Vector3::z(), radius, crown });
     Ok(made.named(
         &[("hub", BOTTOM), ("tread", TOP), ("zone", ZONE)],
-        &[("tread", TOP, smooth), ("zone", ZONE, smooth)],
+        &[("tread", TOP, smooth.clone()), ("zone", ZONE, smooth)],
     ))
 }
 
@@ -167,7 +167,10 @@ fn extruded(shape: &Disk, zone: &FineZone) -> Result<Mesh, MeshError> {
             ("zone".to_owned(), nodes_of(&zone)),
         ]),
         surfaces: BTreeMap::from([
-            ("tread".to_owned(), Surface { faces: tread, smooth, irregularity: None }),
+            (
+                "tread".to_owned(),
+                Surface { faces: tread, smooth: smooth.clone(), irregularity: None },
+            ),
             ("zone".to_owned(), Surface { faces: zone, smooth, irregularity: None }),
         ]),
     };

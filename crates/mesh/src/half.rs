@@ -223,7 +223,7 @@ impl Mirror {
         };
         let surface = |s: &Surface| Surface {
             faces: s.faces.iter().filter_map(face).collect(),
-            smooth: s.smooth,
+            smooth: s.smooth.clone(),
             irregularity: s.irregularity.clone(),
         };
         let mut node_sets: BTreeMap<_, _> =

@@ -28,7 +28,7 @@ fn shifted(body: &Body, n: usize, e: usize) -> Body {
             .iter()
             .map(|f| Face { nodes: f.nodes.map(|i| i + n as u32), hex: f.hex + e as u32 })
             .collect(),
-        smooth: s.smooth,
+        smooth: s.smooth.clone(),
         irregularity: s.irregularity.clone(),
     };
     Body {

@@ -6,12 +6,14 @@
 mod error;
 mod file;
 mod first_contact;
+mod section;
 mod smoothing;
 mod standard;
 
 pub use error::ProfileError;
 pub use file::{ProfileBody, read_profile};
 pub use first_contact::{ContactPoint, Overlap, RigidSlip, WheelOnRail};
+pub use section::{Section, profiled_bar, profiled_disk};
 pub use smoothing::{TOLERANCE, smoothed};
 pub use standard::{STANDARD_PROFILES, rail_60e1, rail_head, wheel_s1002};
 

@@ -294,7 +294,7 @@ impl Projection {
         surface: &Surface,
         mesh: &Mesh,
     ) -> Result<Self, InfluenceError> {
-        let n = surface.smooth.map_or(Vector3::z_axis(), |s| s.normal(point.at));
+        let n = surface.smooth.as_ref().map_or(Vector3::z_axis(), |s| s.normal(point.at));
         let n = if n.z < 0.0 { -n } else { n };
         let t1 = UnitVector3::new_normalize(tangential(Vector3::x(), n));
         let t2 = UnitVector3::new_unchecked(n.cross(&t1));

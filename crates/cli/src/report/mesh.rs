@@ -9,7 +9,7 @@ use super::layout::{about, count, digits, heading, row};
 /// The whole page.
 pub fn text(report: &MeshReport) -> String {
     let number = |n: usize| count(Some(n as f64));
-    if report.position.is_some() {
+    if report.elements == 0 {
         let lines = report.notes.iter().map(|line| format!("  {line}\n"));
         return format!("{}\n{}", report.name, lines.collect::<String>());
     }

@@ -32,13 +32,13 @@ section! {
         /// y of the wheel's profile over that of the bar (m). Default 0: their origins lie over one another.
         #[serde(skip_serializing_if = "is_default")]
         lateral: f64
-            => key(Number(within(-1.0, 1.0)), "m", "give the shift in metres: 3e-3 for 3 mm").half_space_only();
-        /// Angle of the disk about z (rad): yaw. Default 0.
+            => key(Number(within(-1.0, 1.0)), "m", "give the shift in metres: 3e-3 for 3 mm");
+        /// Angle of the disk about z (rad): yaw, on half-spaces. Default 0.
         #[serde(skip_serializing_if = "is_default")]
-        yaw: f64 => ANGLE;
-        /// Angle of the disk about x (rad): roll. Default 0.
+        yaw: f64 => ANGLE.half_space_only();
+        /// Angle of the disk about x (rad): roll, on half-spaces. Default 0.
         #[serde(skip_serializing_if = "is_default")]
-        roll: f64 => ANGLE;
+        roll: f64 => ANGLE.half_space_only();
         /// Height of the undeformed disk above touching at the start (m). Default 0. Above zero only
         /// with `preload.method = "none"`: a disk that does not touch cannot be preloaded.
         lift: f64
@@ -51,7 +51,7 @@ section! {
 }
 
 impl Disk {
-    /// The shape to mesh.
+    /// The shape to mesh, where it has a crown and not a profile.
     pub fn shape(&self) -> mesh::Disk {
         mesh::Disk {
             radius: self.radius,
@@ -96,7 +96,7 @@ section! {
 }
 
 impl Bar {
-    /// The shape to mesh.
+    /// The shape to mesh, where it has a crown and not a profile.
     pub fn shape(&self) -> mesh::Bar {
         mesh::Bar {
             length: self.length,

@@ -152,8 +152,7 @@ pub(crate) const PROFILE: Key = key(
     Profile,
     "",
     "give the name of a profile, the path of a file in millimetres, relative to this one, or points in metres: `profile = \"60E1\"`",
-)
-.half_space_only();
+);
 pub(crate) const BAR_HEIGHTS: Key = key(
     Heights(Coordinate::X),
     "",
@@ -168,8 +167,7 @@ pub(crate) const DISK_HEIGHTS: Key = key(
 )
 .finite_elements_only();
 pub(crate) const ANGLE: Key =
-    key(Number(within(-0.5, 0.5)), "rad", "give the angle in radians: 5e-3 for 5 mrad")
-        .half_space_only();
+    key(Number(within(-0.5, 0.5)), "rad", "give the angle in radians: 5e-3 for 5 mrad");
 pub(crate) const YOUNG: Key =
     key(Number(within(1e3, 1e13)), "Pa", "give Young's modulus in pascal: 210e9 for steel");
 pub(crate) const POISSON: Key = key(

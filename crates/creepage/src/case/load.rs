@@ -98,8 +98,8 @@ impl Case {
         let mut table = Table::try_from(self).unwrap_or_default();
         if self.model == BodyModel::HalfSpace {
             keep_meaningful(&mut table, self.model);
-            drop_crowns(&mut table);
         }
+        drop_crowns(&mut table);
         table
     }
 

@@ -6,6 +6,7 @@ mod geometry;
 mod half_space;
 mod irregularity;
 mod path;
+mod position;
 mod records;
 mod rules;
 mod sideways;
@@ -62,6 +63,7 @@ pub fn check(case: &Case) -> Result<(), CaseError> {
         BodyModel::FiniteElements => sideways::check(case, &mut found),
         BodyModel::HalfSpace => half_space::check(case, &mut found),
     }
+    position::check(case, &mut found);
     choices::check(case, &mut found);
     match case.model {
         BodyModel::FiniteElements => geometry::check(case, &mut found),

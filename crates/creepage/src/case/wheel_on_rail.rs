@@ -1,7 +1,7 @@
 //! The position of a disk with profiles on its bar.
 
 use crate::case::schema::{Case, Crown, ProfileShape};
-use mesh::profile::{Profile, ProfileBody, ProfileError, WheelOnRail};
+use mesh::profile::{ContactPoint, Profile, ProfileBody, ProfileError, WheelOnRail};
 
 /// Half the width (m) of a body that has a crown, beside one that has a profile.
 const HALF_WIDTH: f64 = 0.07;
@@ -30,6 +30,22 @@ impl Case {
             roll: disk.roll,
             cant: bar.cant,
         }))
+    }
+
+    /// The same, with the first point of contact.
+    ///
+    /// # Errors
+    /// Points that make no profile, or a position without contact.
+    pub fn first_contact(&self) -> Result<Option<(WheelOnRail, ContactPoint)>, ProfileError> {
+        let Some(pair) = self.wheel_on_rail()? else { return Ok(None) };
+        let point = pair.first_contact()?;
+        Ok(Some((pair, point)))
+    }
+
+    /// Height (m) of the axle of an undeformed disk of finite elements over the point of first contact: its rolling radius there.
+    pub fn axle_height(&self) -> f64 {
+        let contact = self.first_contact().ok().flatten();
+        contact.map_or(self.disk.radius, |(_, point)| point.rolling_radius)
     }
 }
 

@@ -32,7 +32,7 @@ pub struct MeshReport {
     pub bodies: Vec<BodyReport>,
     /// What was chosen or corrected, and what to expect of falling friction.
     pub notes: Vec<String>,
-    /// Where a wheel with profiles touches the rail, on half-spaces, which have no mesh.
+    /// Where a wheel with profiles touches the rail, and how it would press half-spaces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub position: Option<PositionReport>,
     /// The dimensionless numbers of contact and friction.
@@ -141,7 +141,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
     Ok(MeshReport {
         name: case.name.clone(),
         symmetry: case.mesh.symmetry,
-        position: None,
+        position: model.position,
         elements,
         fully_integrated: model.fully_integrated(),
         nodes,
@@ -150,6 +150,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
             .notes
             .iter()
             .cloned()
+            .chain(model.position.iter().flat_map(PositionReport::lines))
             .chain(friction.line())
             .chain(friction.expectation())
             .collect(),

@@ -126,7 +126,7 @@ impl Probes {
         }
         let places = Places {
             zones: model.zones.clone(),
-            radius: case.disk.radius,
+            radius: case.axle_height(),
             size: case.mesh.zone.size,
             symmetric: model.mesh.symmetric,
             follows: case.mesh.window.is_some(),

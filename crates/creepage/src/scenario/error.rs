@@ -56,6 +56,20 @@ pub enum ScenarioError {
         "change disk.lateral, disk.yaw or load.normal, the profiles, or mesh.zone.size"
     ))]
     WheelOnRail(#[from] crate::scenario::wheel_on_rail::WheelOnRailError),
+    /// Elements that lean too far where the profiles are steep.
+    #[error(
+        "the profiles are so steep beside the contact, whose angle is {angle:.3} rad, that the least scaled Jacobian of the elements is \
+         {least:.2}, below 0.3"
+    )]
+    #[diagnostic(help(
+        "set mesh.grading = \"tensor\", whose elements lean less, or make disk.width and bar.width smaller"
+    ))]
+    Lean {
+        /// The least scaled Jacobian.
+        least: f64,
+        /// Angle of the plane of contact (rad).
+        angle: f64,
+    },
     /// A patch of which points would not be recorded.
     #[error("the patch reaches {reach_mm:.2} mm across, beyond the fine zone of {width_mm:.2} mm")]
     #[diagnostic(help("give a mesh.zone.width of more than twice that"))]

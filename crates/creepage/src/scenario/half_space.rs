@@ -2,7 +2,7 @@
 
 use crate::case::friction_law;
 use crate::case::hertz::hertz;
-use crate::case::schema::{Case, Creepage, DriveMode};
+use crate::case::schema::{Case, Creepage, DriveMode, Material};
 use crate::scenario::draw::{draw, seed};
 use crate::scenario::error::ScenarioError;
 use crate::scenario::numbers::{DimensionlessNumbers, three};
@@ -101,15 +101,25 @@ pub fn half_space(
     })
 }
 
-/// Where the wheel of a case with half-spaces touches the rail; none without profiles.
+/// Where the wheel of a case touches the rail, and how it would press half-spaces; none without profiles.
 ///
 /// # Errors
-/// A position without contact, or with a contact that half-spaces cannot have.
+/// A position without contact, or with a contact that half-spaces cannot have: at two places of different slope, or at an end
+/// of a profile; a patch beyond the fine zone.
 pub fn position(case: &Case) -> Result<Option<PositionReport>, ScenarioError> {
-    let material = case.disk_material();
-    let bodies = HalfSpaces::new(material.young, material.poisson, material.density);
-    let (wheel, motion) = wheel(case, &bodies)?;
+    let (wheel, motion) = wheel(case, &as_stiff_as(case))?;
     Ok(wheel.map(|wheel| PositionReport::new(&wheel, &motion)))
+}
+
+/// Half-spaces of one material that yield to pressure as those of both bodies do (Johnson 1985, Eq 4.6).
+fn as_stiff_as(case: &Case) -> HalfSpaces {
+    let (disk, bar) = (case.disk_material(), case.bar_material());
+    let share = |m: Material| (1.0 - m.poisson * m.poisson) / m.young;
+    let young = match disk == bar {
+        true => disk.young,
+        false => 2.0 * (1.0 - disk.poisson * disk.poisson) / (share(disk) + share(bar)),
+    };
+    HalfSpaces::new(young, disk.poisson, disk.density)
 }
 
 /// The wheel of a case with profiles, pressed on the rail, and what its position makes it slip.
@@ -117,14 +127,20 @@ fn wheel(
     case: &Case,
     bodies: &HalfSpaces,
 ) -> Result<(Option<PressedWheel>, RigidSlip), ScenarioError> {
-    let Some(pair) = case.wheel_on_rail().map_err(WheelOnRailError::from)? else {
+    let Some((pair, first)) = case.first_contact().map_err(WheelOnRailError::from)? else {
         return Ok((None, RigidSlip::default()));
     };
-    let wheel = press_wheel(bodies, &pair, case.load.normal, case.mesh.zone.size)?;
+    let upright = if case.is_half_space() { 1.0 } else { libm::cos(first.angle) };
+    let wheel = press_wheel(bodies, &pair, case.load.normal / upright, case.mesh.zone.size)?;
     let field = wheel.pressed.field.trimmed();
     let lines = [field.first[1], field.first[1] + field.points[1] as i64 - 1];
     let reach = lines.map(|line| line.unsigned_abs() as f64 * field.spacing);
-    let (reach, width) = (reach[0].max(reach[1]), case.mesh.zone.width);
+    // the fine zone of elements lies about the first point of contact
+    let aside = match case.is_half_space() {
+        true => 0.0,
+        false => (wheel.middle.profile_y[1] - wheel.first.profile_y[1]).abs(),
+    };
+    let (reach, width) = (reach[0].max(reach[1]) + aside, case.mesh.zone.width);
     if reach > 0.5 * width + field.spacing {
         return Err(ScenarioError::Zone { reach_mm: 1e3 * reach, width_mm: 1e3 * width });
     }

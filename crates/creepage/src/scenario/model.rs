@@ -4,6 +4,7 @@
 use crate::case::friction_law;
 use crate::case::schema::{Case, Enforcement};
 use crate::scenario::error::ScenarioError;
+use crate::scenario::wheel_on_rail::PositionReport;
 use contact::{
     BodyMaterial, ExactContact, ExactSettings, GapFunction, Method, PenaltyContact,
     PenaltySettings, StabilityScale,
@@ -27,6 +28,8 @@ pub const BAR: usize = 1;
 pub struct Model {
     /// Both bodies in one mesh, the disk first; nodes in m.
     pub mesh: Mesh,
+    /// Where a wheel with profiles touches the rail, and what it slips by that.
+    pub position: Option<PositionReport>,
     /// Remarks on a mesh file for the user, one sentence each; none for a generated mesh.
     pub notes: Vec<String>,
     /// Materials of the disk and of the bar.

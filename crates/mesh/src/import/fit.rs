@@ -90,7 +90,10 @@ pub fn fit(mut imported: Imported, shape: &Shape) -> Result<Imported, ImportErro
         }
         let smooth = shape.exact.then_some(smooth);
         let body = &mut imported.mesh.bodies[body];
-        body.surfaces.insert(ours.into(), Surface { faces: all, smooth, irregularity: None });
+        body.surfaces.insert(
+            ours.into(),
+            Surface { faces: all, smooth: smooth.clone(), irregularity: None },
+        );
         body.surfaces.insert("zone".into(), Surface { faces, smooth, irregularity: None });
         body.node_sets.insert("zone".into(), nodes);
     }

@@ -6,7 +6,7 @@
 //! does so form a curve, one point on each of its circles, and the contact of that curve with the rail's profile in the
 //! plane is that of the two surfaces (as CONTACT's contact locus; Vollebregt 2022, "CONTACT user guide", wheel-rail contact).
 
-use super::{Profile, ProfileError};
+use super::{Profile, ProfileError, Section};
 use nalgebra::{Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -269,6 +269,23 @@ impl WheelOnRail {
             }
         }
         None
+    }
+
+    /// The sections of wheel and rail across, `reach` (m) to either side of the point of contact of a wheel that stands upright and
+    /// straight; `None` for others, and at an end of a profile.
+    pub fn sections(&self, point: &ContactPoint, reach: f64) -> Option<[Section; 2]> {
+        if self.yaw != 0.0 || self.roll != 0.0 {
+            return None;
+        }
+        let [s0, u0] = point.profile_y;
+        let r0 = self.radius_at(s0)?[0];
+        let wheel = |y: f64| self.radius_at(s0 + y).map(|[r, slope, _]| [r0 - r, -slope]);
+        let rail = |y: f64| {
+            let u = self.on_rail(point.on_rail, [1.0, 0.0], y, u0 + y)?;
+            let [at, by_u, _] = self.rail_point(u)?;
+            Some([at[1] - point.on_rail[1], by_u[1] / by_u[0]])
+        };
+        Section::pair([&wheel, &rail], reach)
     }
 
     /// The velocity of the wheel against the rail at the point of contact over the speed of its centre, which moves along x,

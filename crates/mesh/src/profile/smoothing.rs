@@ -91,18 +91,29 @@ impl SmoothCurve {
     /// Coordinate `i` and its derivatives by the length at `s` in a cell.
     fn part(&self, i: usize, cell: usize, s: f64) -> [f64; 3] {
         let h = self.length[cell + 1] - self.length[cell];
-        let (b, bend, value) = ((s - self.length[cell]) / h, &self.bend[i], &self.value[i]);
-        let a = 1.0 - b;
-        let [left, right] = [bend[cell], bend[cell + 1]];
-        [
-            a * value[cell]
-                + b * value[cell + 1]
-                + h * h / 6.0 * ((a * a * a - a) * left + (b * b * b - b) * right),
-            (value[cell + 1] - value[cell]) / h
-                + h / 6.0 * ((1.0 - 3.0 * a * a) * left + (3.0 * b * b - 1.0) * right),
-            a * left + b * right,
-        ]
+        let pair = |of: &[f64]| [of[cell], of[cell + 1]];
+        part(h, (s - self.length[cell]) / h, pair(&self.value[i]), pair(&self.bend[i]))
     }
+}
+
+/// A cubic and its first two derivatives at the part `b` of a cell of the length `h`, from its values and second derivatives at
+/// both ends.
+pub(super) fn part(h: f64, b: f64, value: [f64; 2], bend: [f64; 2]) -> [f64; 3] {
+    let a = 1.0 - b;
+    let [left, right] = bend;
+    [
+        a * value[0]
+            + b * value[1]
+            + h * h / 6.0 * ((a * a * a - a) * left + (b * b * b - b) * right),
+        (value[1] - value[0]) / h
+            + h / 6.0 * ((1.0 - 3.0 * a * a) * left + (3.0 * b * b - 1.0) * right),
+        a * left + b * right,
+    ]
+}
+
+/// The second derivatives of the cubic spline over `x` through `y`, with natural ends.
+pub(super) fn interpolated(x: &[f64], y: &[f64]) -> Vec<f64> {
+    smooth(x, y, 0.0).1
 }
 
 /// The values and second derivatives of the smoothing spline over `x` through `y` that minimises the sum of squared distances

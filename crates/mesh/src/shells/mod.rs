@@ -159,7 +159,7 @@ impl Shells {
         let surfaces = surfaces.iter().map(|(name, flag, smooth)| {
             (
                 (*name).to_owned(),
-                Surface { faces: self.faces(*flag), smooth: *smooth, irregularity: None },
+                Surface { faces: self.faces(*flag), smooth: smooth.clone(), irregularity: None },
             )
         });
         let surfaces = surfaces.collect();

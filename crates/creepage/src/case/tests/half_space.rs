@@ -238,7 +238,20 @@ fn bad_profiles_and_positions_are_refused_with_the_reason() {
     ] {
         refused(half_space(sets), &[words]);
     }
-    refused(set(&["disk.profile=S1002"]), &["has no meaning for model = \"finite-elements\""]);
+    // a mesh follows those of a whole wheel that rolls straight
+    for (other, words) in [
+        ("disk.yaw=1e-3", "has no meaning for model = \"finite-elements\""),
+        ("mesh.symmetry=half", "y = 0 is no plane of symmetry"),
+        ("drive.spin=0.1", "the wheel would leave its place on the rail"),
+        ("drive.lateral_creepage=1e-3", "the wheel would leave its place on the rail"),
+        ("mesh.file=none.vtu", "only a mesh that is generated follows them"),
+        ("disk.lateral=0.5", "there is no contact at this position"),
+    ] {
+        refused(set(&["bar.profile=60E1", other]), &[words]);
+    }
+    let case = set(&["bar.profile=60E1", "disk.lateral=1e-3"]).unwrap();
+    let again = Case::from_text(&case.to_toml(), Path::new("case.toml"), &[]).unwrap();
+    assert_eq!(again.hash(), case.hash());
     let both =
         format!("model = \"half-space\"\n{SHORT}[bar]\nprofile = \"60E1\"\ncrown_radius = 0.3\n");
     refused(read(&both), &["bar.crown_radius and bar.profile are both given"]);

@@ -24,7 +24,6 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
              the pressure",
         "give [material] alone, or set model = \"finite-elements\"",
     );
-    check_position(case, found);
     let crowns = case.disk.crown_radius.curvature() + case.bar.crown_radius.curvature();
     let flat = crowns == 0.0 && !case.has_profiles();
     found.require(
@@ -48,26 +47,6 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
             number(case.drive.spin)
         ),
         "leave it out",
-    );
-}
-
-/// Profiles touch at their position, which means something only with them.
-fn check_position(case: &Case, found: &mut Findings<'_>) {
-    let (disk, bar) = (&case.disk, &case.bar);
-    let placed = [disk.lateral, disk.yaw, disk.roll, bar.cant].iter().any(|x| *x != 0.0);
-    found.require(
-        case.has_profiles() || !placed,
-        &["disk.lateral", "disk.yaw", "disk.roll", "bar.cant"],
-        "disk.lateral, disk.yaw, disk.roll and bar.cant need a profile",
-        "give disk.profile or bar.profile, or leave them out",
-    );
-    let contact = case.wheel_on_rail().and_then(|pair| pair.map(|p| p.first_contact()).transpose());
-    let problem = contact.err().map(|error| error.to_string());
-    found.require(
-        problem.is_none(),
-        &["disk.lateral", "disk.profile", "bar.profile"],
-        problem.unwrap_or_default(),
-        "correct the profile, or disk.lateral, the place of the wheel's origin over that of the rail",
     );
 }
 

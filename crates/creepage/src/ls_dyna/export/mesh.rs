@@ -75,7 +75,7 @@ fn nodes(cards: &mut Cards, rolling: &RollingMotion<'_>) {
     cards.keyword("NODE");
     let places = (0..).zip(&rolling.model.mesh.nodes);
     places.for_each(|(n, at)| cards.node(n, (at / unit).into()));
-    cards.node(rolling.axle(), [0.0, 0.0, rolling.case.disk.radius / unit]);
+    cards.node(rolling.axle(), [0.0, 0.0, rolling.case.axle_height() / unit]);
 }
 
 /// The nodes that do not move along y, but for those that are held anyway.

@@ -122,7 +122,7 @@ pub(super) fn motion(cards: &mut Cards, rolling: &RollingMotion<'_>) {
         ("OMEGA", free * units.time()),
         ("VX", speed / units.velocity()),
     ]);
-    let height = case.disk.radius - rolling.depth();
+    let height = case.axle_height() - rolling.depth();
     cards.fields(&[
         ("XC", 0.0),
         ("YC", 0.0),
@@ -149,7 +149,7 @@ fn rigid_hub(cards: &mut Cards, rolling: &RollingMotion<'_>) {
         ("NSID", number::HUB_NODES as f64),
         ("PNODE", axle),
     ]);
-    let height = case.disk.radius;
+    let height = case.axle_height();
     // the hub's own mass is a cylinder, whose moment about y counts alone
     let own = rolling.share() * case.load.hub_mass;
     let radius = case.disk.hub_radius;

@@ -111,6 +111,7 @@ fn log_opening(
 /// Writes of the meshes into the log.
 pub(super) fn log_model(case: &Case, model: &Model, log: &mut Log) -> Result<(), NotWritten> {
     model.notes.iter().try_for_each(|note| log.warn(&format!("mesh: {note}")))?;
+    model.position.iter().flat_map(|at| at.lines()).try_for_each(|line| log.say(&line))?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     log.say(&format!("mesh: {elements} elements, {nodes} nodes"))?;
     if model.multiplicity > 1.0 {

@@ -4,11 +4,18 @@ use super::mesh_file;
 use crate::case::irregularity::{Coordinate, SurfaceHeights};
 use crate::case::schema::{Case, ContactLayers, Ends, Symmetry};
 use crate::scenario::error::ScenarioError;
+use crate::scenario::half_space::position;
 use crate::scenario::memory::enough_for_mesh;
 use crate::scenario::model::{BAR, DISK, Model};
+use crate::scenario::wheel_on_rail::WheelOnRailError;
+use mesh::profile::{profiled_bar, profiled_disk};
 use mesh::{Along, FineZone, Irregularity, Mesh, Surface};
 use nalgebra::Vector3;
 use solid::{Element, Level, Material, Volumetric};
+use std::sync::Arc;
+
+/// The least scaled Jacobian of elements that follow profiles.
+const LEAST_JACOBIAN: f64 = 0.3;
 
 /// The model of a case: its mesh is generated, or read from its file.
 ///
@@ -19,6 +26,8 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         return Err(ScenarioError::NoMesh);
     }
     enough_for_mesh(case)?;
+    // refuses contact at two places, and a patch beyond the fine zone
+    let position = position(case)?;
     let (mut mesh, notes) = match mesh_file::import(case)? {
         Some(imported) => imported,
         None => generated(case)?,
@@ -63,6 +72,7 @@ pub fn model(case: &Case) -> Result<Model, ScenarioError> {
         clamped: set(BAR, "bottom"),
         quiet,
         mesh,
+        position,
         notes,
     })
 }
@@ -72,7 +82,7 @@ fn irregular(
     case: &Case,
     [mut tread, mut top]: [Surface; 2],
 ) -> Result<[Surface; 2], ScenarioError> {
-    let axis = Vector3::new(0.0, 0.0, case.disk.radius);
+    let axis = Vector3::new(0.0, 0.0, case.axle_height());
     let with = |key, given: &Option<SurfaceHeights>, along, over| {
         let heights = given.as_ref().map(|given| given.heights(over)).transpose();
         let heights = heights.map_err(|problem| ScenarioError::Heights { key, problem })?;
@@ -112,7 +122,7 @@ fn generated(case: &Case) -> Result<(Mesh, Vec<String>), ScenarioError> {
         // a slice is made one cube wide and stretched to its width
         (disk.width, bar.width, zone.width) = (zone.size, zone.size, zone.size);
     }
-    let mut mesh = mesh::join(&[mesh::disk(&disk, &zone)?, mesh::bar(&bar, &zone)?]);
+    let mut mesh = mesh::join(&of_shapes(case, &disk, &bar, &zone)?);
     if case.mesh.plane_strain {
         mesh.nodes.iter_mut().for_each(|x| x[1] *= stretch);
     }
@@ -125,6 +135,30 @@ fn generated(case: &Case) -> Result<(Mesh, Vec<String>), ScenarioError> {
     };
     let notes = (widened && !case.mesh.plane_strain).then(note);
     Ok((mesh, notes.into_iter().collect()))
+}
+
+/// The meshes of disk and bar, whose running surfaces follow their profiles, if they have any.
+fn of_shapes(
+    case: &Case,
+    disk: &mesh::Disk,
+    bar: &mesh::Bar,
+    zone: &FineZone,
+) -> Result<[Mesh; 2], ScenarioError> {
+    let Some((pair, point)) = case.first_contact().map_err(WheelOnRailError::from)? else {
+        return Ok([mesh::disk(disk, zone)?, mesh::bar(bar, zone)?]);
+    };
+    let [wheel_mm, rail_mm] = point.profile_y.map(|y| 1e3 * y);
+    let sections = pair.sections(&point, 0.5 * zone.width);
+    let sections = sections.ok_or(WheelOnRailError::Beyond { wheel_mm, rail_mm })?;
+    let [of_disk, of_bar] = sections.map(Arc::new);
+    let disk = mesh::Disk { radius: case.axle_height(), ..*disk };
+    let meshes = [profiled_disk(&disk, zone, &of_disk)?, profiled_bar(bar, zone, &of_bar)?];
+    let least = |mesh: &Mesh| mesh::quality(mesh).min_scaled_jacobian;
+    let least = least(&meshes[DISK]).min(least(&meshes[BAR]));
+    if least < LEAST_JACOBIAN {
+        return Err(ScenarioError::Lean { least, angle: point.angle });
+    }
+    Ok(meshes)
 }
 
 /// The nodes that do not move along y.

@@ -21,7 +21,6 @@ use mesh::Padded;
 use output::NotWritten;
 use solid::Solid;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
@@ -304,7 +303,7 @@ fn quiet(model: &Model) -> QuietEnd {
 
 fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
     Hub::new(
-        [0.0, 0.0, case.disk.radius].into(),
+        [0.0, 0.0, case.axle_height()].into(),
         &model.hub,
         solid.reference(),
         &model.mass,
@@ -315,13 +314,20 @@ fn hub(case: &Case, model: &Model, solid: &Solid) -> Hub {
     .balanced(model.mesh.bodies[DISK].nodes.clone(), solid.reference(), &model.mass)
 }
 
+/// What turns the hub. The position of a wheel with profiles adds what it slips where it turns by `disk.radius`.
 fn spin(case: &Case, model: &Model, free: f64) -> Spin {
     let ramp = case.drive.ramp();
+    let by_position = model.position.map_or(0.0, |position| position.longitudinal);
     match case.drive.mode {
         DriveMode::Creepage => match &case.drive.creepage {
-            Some(Creepage::Table(points)) => Spin::Table { free, creepage: Arc::clone(points) },
-            Some(Creepage::Number(creepage)) => Spin::Creepage { free, creepage: *creepage, ramp },
-            None => Spin::Creepage { free, creepage: 0.0, ramp },
+            Some(Creepage::Table(points)) => {
+                let creepage = points.iter().map(|[t, creepage]| [*t, creepage + by_position]);
+                Spin::Table { free, creepage: creepage.collect() }
+            }
+            Some(Creepage::Number(creepage)) => {
+                Spin::Creepage { free, creepage: creepage + by_position, ramp }
+            }
+            None => Spin::Creepage { free, creepage: by_position, ramp },
         },
         DriveMode::Torque => {
             Spin::Torque { torque: case.drive.torque.unwrap_or(0.0) / model.multiplicity, ramp }

@@ -30,7 +30,7 @@ pub(super) fn window(
 ) -> Result<Option<Window>, ScenarioError> {
     let Some(columns) = case.window_columns() else { return Ok(None) };
     let by = f64::from(columns) * case.mesh.zone.size;
-    let radius = case.disk.radius;
+    let radius = case.axle_height();
     let bodies = [(DISK, Chart::Ring { radius }), (BAR, Chart::Straight)]
         .map(|(side, chart)| RolledBody { model, side, chart });
     let sources = bodies.each_ref().map(|body| {
