@@ -17,6 +17,7 @@ mod nearly_incompressible;
 mod physics;
 mod plane_strain;
 mod preload;
+mod profiles;
 mod resultants;
 mod sideways;
 mod window;

@@ -23,7 +23,7 @@ fn check_surfaces(mesh: &Mesh) {
                 let n = normal(mesh, face);
                 let inner = centre(mesh, &mesh.hexes[face.hex as usize]);
                 assert!(n.dot(&(centre(mesh, &face.nodes) - inner)) > 0.0, "{name} {face:?}");
-                let Some(smooth) = surface.smooth else {
+                let Some(smooth) = &surface.smooth else {
                     continue;
                 };
                 for node in face.nodes {

@@ -121,11 +121,11 @@ fn sets_hold_the_nodes_that_their_names_say() {
     let sets = &body(&d, "disk").node_sets;
     let rho = |p: Vector3<f64>| libm::hypot(p[0], p[2] - 0.46);
     whole(&d, &sets["hub"], &|p| (rho(p) - 0.10).abs() < 1e-12);
-    let smooth = body(&d, "disk").surfaces["tread"].smooth.unwrap();
+    let smooth = body(&d, "disk").surfaces["tread"].smooth.clone().unwrap();
     whole(&d, &sets["tread"], &|p| smooth.offset(p).abs() < 1e-12);
 
     let sets = &body(&b, "bar").node_sets;
-    let smooth = body(&b, "bar").surfaces["top"].smooth.unwrap();
+    let smooth = body(&b, "bar").surfaces["top"].smooth.clone().unwrap();
     whole(&b, &sets["top"], &|p| smooth.offset(p).abs() < 1e-12);
     whole(&b, &sets["bottom"], &|p| p[2] == -0.07);
     whole(&b, &sets["ends"], &|p| p[0] == -0.09 || p[0] == -0.09 + 0.24);

@@ -88,8 +88,8 @@ fn shapes_stay_close_to_cubes_at_every_size_and_depth_of_the_zone() {
 fn every_inner_face_has_two_elements_and_the_others_lie_on_the_outside() {
     let on = |value: f64, at: f64| (value - at).abs() < 1e-12;
     let [d, b] = both(&zone(2e-3));
-    let tread = body(&d).surfaces["tread"].smooth.unwrap();
-    let top = body(&b).surfaces["top"].smooth.unwrap();
+    let tread = body(&d).surfaces["tread"].smooth.clone().unwrap();
+    let top = body(&b).surfaces["top"].smooth.clone().unwrap();
     type Sides<'a> = Vec<Box<dyn Fn(Vector3<f64>) -> bool + 'a>>;
     let of_disk: Sides = vec![
         Box::new(|p| on(tread.offset(p), 0.0)),
@@ -186,7 +186,7 @@ fn nodes_of_tread_top_hub_and_ends_lie_exactly_where_their_names_say() {
             let of_faces: HashSet<u32> = surface.faces.iter().flat_map(|f| f.nodes).collect();
             let set = &body(&mesh).node_sets[name];
             assert_eq!(of_faces.len(), set.len());
-            let smooth = surface.smooth.unwrap();
+            let smooth = surface.smooth.as_ref().unwrap();
             assert!(set.iter().all(|n| of_faces.contains(n)));
             assert!(set.iter().all(|&n| smooth.offset(mesh.at(n)).abs() < 1e-12));
         }

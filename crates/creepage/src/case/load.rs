@@ -82,8 +82,8 @@ impl Case {
     pub fn to_toml(&self) -> String {
         // A case holds nothing that TOML cannot: the round-trip test shows it.
         let text = match self.model {
-            BodyModel::FiniteElements => toml::to_string(self),
-            BodyModel::HalfSpace => toml::to_string(&self.table()),
+            BodyModel::FiniteElements if !self.has_profiles() => toml::to_string(self),
+            _ => toml::to_string(&self.table()),
         };
         text.unwrap_or_default()
     }

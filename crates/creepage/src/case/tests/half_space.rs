@@ -244,7 +244,10 @@ fn bad_profiles_and_positions_are_refused_with_the_reason() {
         ("mesh.symmetry=half", "y = 0 is no plane of symmetry"),
         ("drive.spin=0.1", "the wheel would leave its place on the rail"),
         ("drive.lateral_creepage=1e-3", "the wheel would leave its place on the rail"),
-        ("mesh.file=none.vtu", "only a mesh that is generated follows them"),
+        (
+            "mesh.file=../../meshes/disk-on-bar-2mm.vtu",
+            "only a mesh that is generated follows them",
+        ),
         ("disk.lateral=0.5", "there is no contact at this position"),
     ] {
         refused(set(&["bar.profile=60E1", other]), &[words]);
