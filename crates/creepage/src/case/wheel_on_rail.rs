@@ -32,7 +32,7 @@ impl Case {
         }))
     }
 
-    /// The same, with the first point of contact.
+    /// Disk and bar by their profiles as [`Case::wheel_on_rail`], with the first point of contact.
     ///
     /// # Errors
     /// Points that make no profile, or a position without contact.

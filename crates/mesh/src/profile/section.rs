@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use std::sync::Arc;
 
 /// Distance of the points of a section (m). Where the curvature jumps by dk the curve is off by about its square times dk/16:
-/// 0.05 nm between radii of 13 and 80 mm.
+/// 0.04 um between radii of 13 and 80 mm.
 const SPACING: f64 = 1e-4;
 /// Slope at which a profile is followed no farther: 45 degrees.
 const STEEPEST: f64 = 1.0;
@@ -67,8 +67,11 @@ impl Section {
         let pair = |of: &[f64]| [of[cell], of[cell + 1]];
         let [z, slope, _] =
             part(SPACING, inside - cell as f64, pair(&self.height), pair(&self.bend));
+        if place == inside {
+            return [z, slope];
+        }
         let beyond = SPACING * (place - inside);
-        // 1 - e^(-|x|/l), and the length of the slope's fading
+        // the integral of the slope's fading e^(-|x|/l)
         let faded = -libm::expm1(-beyond.abs() / self.fade);
         [z + slope * self.fade * faded.copysign(beyond), slope * (1.0 - faded)]
     }

@@ -2,6 +2,7 @@
 
 use super::Findings;
 use crate::case::schema::{Case, Symmetry};
+use std::f64::consts::FRAC_PI_4;
 
 /// Checks the position of the disk, which means something only with profiles.
 pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
@@ -27,6 +28,16 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
 
 /// A generated mesh of whole bodies follows profiles, under a wheel that rolls straight.
 fn check_mesh(case: &Case, found: &mut Findings<'_>) {
+    let angle = case.first_contact().ok().flatten().map_or(0.0, |(_, point)| point.angle);
+    found.require(
+        angle.abs() <= FRAC_PI_4,
+        &["disk.lateral", "disk.profile", "bar.profile"],
+        format_args!(
+            "wheel and rail touch at {:.0} degrees, on the flange: elements follow profiles up to 45 degrees",
+            angle.abs().to_degrees()
+        ),
+        "move the wheel by disk.lateral until it touches with its tread, or set model = \"half-space\"",
+    );
     let drive = &case.drive;
     for (key, given, why, remedy) in [
         (
