@@ -202,6 +202,13 @@ def test_a_wheel_that_only_rolled_has_no_deformation():
     assert np.allclose(_frames.fit(wheel, after)(wheel), after, atol=1e-12)
 
 
+def test_what_a_zone_that_follows_the_contact_moves_is_no_deformation():
+    bar = np.array([3e-6, -2e-6, 1e-6])
+    assert _frames.moved_on(bar) == 0.0
+    assert _frames.moved_on(bar[:0]) == 0.0
+    assert np.allclose(bar + 0.12 - _frames.moved_on(bar + 0.12), bar - np.median(bar), atol=1e-15)
+
+
 def test_von_mises_of_pull_of_shear_and_of_pressure():
     stress = np.array([[-3.0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 2.0, 0], [7.0, 7.0, 7.0, 0, 0, 0]])
     assert np.allclose(_frames.von_mises(stress), [3.0, np.sqrt(12.0), 0.0])
