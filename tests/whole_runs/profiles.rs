@@ -31,10 +31,15 @@ fn a_rail_whose_profile_is_a_circle_rolls_as_one_with_that_crown() {
     let arc = profile("bar.profile", |y| 60.0 - (3600.0 - y * y).sqrt());
     let short = "time.roll=0.003";
     let (crowned, profiled) = (small(&[short]), small(&[short, &arc]));
-    for name in ["tangential_force", "peak_pressure", "patch_half_length", "patch_half_width"] {
+    // points are smoothed by 1 um rms; the tangential force still rises after 3 mm
+    for (name, limit) in [
+        ("peak_pressure", 1e-4),
+        ("patch_half_length", 1e-4),
+        ("patch_half_width", 1e-4),
+        ("tangential_force", 1e-3),
+    ] {
         let [a, b] = [&crowned, &profiled].map(|run| contact(run, name));
-        // files are smoothed by 1 um rms
-        assert!((b / a - 1.0).abs() < 1e-3, "{name}: {a} {b}");
+        assert!((b / a - 1.0).abs() < limit, "{name}: {a} {b}");
     }
 }
 

@@ -275,14 +275,15 @@ mod tests {
                 pair.rail.at(u).map(|[z, ..]| [cos * u + sin * z, sin * u - cos * z])
             };
             let [y0, z0] = turned(u0).unwrap();
+            let place = |i: i32| turned(u0 + 1e-5 * f64::from(i));
+            let drawn = (-2000..2000).filter_map(place).map(|[y, z]| [y - y0, z - z0]);
+            let drawn: Vec<[f64; 2]> = drawn.collect();
             let near = |p: &Vector3<f64>| p.y.abs() < 8e-3 && p.y > section.start;
             for p in running(&meshes[1]).into_iter().filter(near) {
-                let nearest = (-2000..2000).filter_map(|i| {
-                    let [y, z] = turned(u0 + 1e-5 * f64::from(i))?;
-                    Some(libm::hypot(y - y0 - p.y, z - z0 - p.z))
-                });
-                // half the distance of the samples
-                assert!(nearest.fold(f64::MAX, f64::min) < 6e-6, "{lateral} {p}");
+                let next = drawn.partition_point(|[y, _]| *y <= p.y);
+                let [[y, z], [y_next, z_next]] = [drawn[next - 1], drawn[next]];
+                let height = z + (z_next - z) * (p.y - y) / (y_next - y);
+                assert!((p.z - height).abs() < 3e-7, "{lateral} {p} {height}");
             }
         }
     }
