@@ -52,6 +52,24 @@ fn a_zone_that_follows_the_contact_meets_the_same_irregularities_as_one_as_long_
 }
 
 #[test]
+fn a_rail_whose_heights_rise_across_presses_the_wheel_aside_by_their_slope() {
+    let slope = 5e-3;
+    let rising = format!("bar.surface={{ formula = \"{slope}*y\" }}");
+    let free =
+        ["mesh.symmetry=none", "friction.static=1e-5", "drive.creepage=0", "time.roll=0.003"];
+    let short = "evaluate.last=0.001";
+    let [level, tilted] = [&[][..], &[rising.as_str()]].map(|sets| {
+        let run = small(&[&free, &[short][..], sets].concat(), 2);
+        let [aside, up] =
+            ["lateral_force", "normal_force"].map(|name| run.number(&format!("/contact/{name}")));
+        aside / up
+    });
+    assert!(level.abs() < 1e-6, "{level:e}");
+    // the crown of 60 mm touches beside the middle, where its slope takes the place of the heights'
+    assert!((tilted / slope + 1.0).abs() < 0.02, "{tilted:e}");
+}
+
+#[test]
 fn irregular_surfaces_give_the_same_bits_on_any_number_of_threads() {
     let sets = [IRREGULAR[0], IRREGULAR[1], WINDOW, "time.roll=0.004"];
     let [one, two] = [1, 2].map(|threads| small(&sets, threads));

@@ -20,6 +20,8 @@ struct Lift {
     side: u8,
     /// The coordinate of the material that the node has at the start (m or rad).
     coordinate: f64,
+    /// y of its material (m).
+    y: f64,
     /// How far the edge reaches along the height in the reference configuration (m).
     reach: f64,
     /// Height over reach.
@@ -54,6 +56,7 @@ impl Lifts {
                         inward,
                         side: side as u8,
                         coordinate: along.coordinate(at),
+                        y: at.y,
                         // an edge that leans by more than 60 degrees is none across a layer
                         reach: along.outward(at).dot(&edge).max(0.5 * edge.norm()),
                         ratio: 0.0,
@@ -74,7 +77,8 @@ impl Lifts {
         for lift in &mut self.lifts {
             let side = usize::from(lift.side);
             let height = self.heights[side].as_ref();
-            let height = height.map_or(0.0, |heights| heights.at(lift.coordinate + moved[side]));
+            let along = lift.coordinate + moved[side];
+            let height = height.map_or(0.0, |heights| heights.at(along, lift.y));
             lift.ratio = height / lift.reach;
         }
     }
@@ -121,8 +125,8 @@ mod tests {
     struct Wave(f64);
 
     impl Heights for Wave {
-        fn at(&self, s: f64) -> f64 {
-            self.0 * libm::cos(700.0 * s)
+        fn at(&self, s: f64, y: f64) -> f64 {
+            self.0 * libm::cos(700.0 * s) * (1.0 + 100.0 * y)
         }
     }
 
@@ -158,7 +162,7 @@ mod tests {
                 let x = reference[n as usize].vector();
                 let angle = libm::atan2(x.x, radius - x.z);
                 let on_disk = trace.side(0).contains(&n);
-                let height = if on_disk { 1e-5 * libm::cos(700.0 * (angle + moved)) } else { 0.0 };
+                let height = if on_disk { Wave(1e-5).at(angle + moved, x.y) } else { 0.0 };
                 let outward = Along::Around(axis).outward(x);
                 let wanted = axis + about * (x - axis + height * outward);
                 if on_disk {
@@ -198,14 +202,11 @@ mod tests {
             let (mesh, found) = gaps(rows, slave, Some(Arc::clone(&wave)));
             assert!(found.len() > 50, "{rows:?} {slave}");
             for gap in found {
-                let x = mesh.at(gap.node).x;
+                let at = mesh.at(gap.node);
                 // slopes of 3.5e-3 make gaps along the normal shorter by 6e-6 of them; a mortar gap is a mean over the node's faces
                 let limit = if rows == Rows::Mortar { 5e-7 } else { 2e-8 };
-                assert!(
-                    (gap.gap - (1e-5 - wave.at(x))).abs() < limit,
-                    "{rows:?} {slave} {x}: {}",
-                    gap.gap
-                );
+                let expected = 1e-5 - wave.at(at.x, at.y);
+                assert!((gap.gap - expected).abs() < limit, "{rows:?} {slave} {at}: {}", gap.gap);
             }
         }
     }

@@ -17,13 +17,13 @@ const TURN: f64 = 1e-4;
 /// What a wheel's height after a turn may differ from that before it (m).
 pub const CLOSED: f64 = 1e-8;
 
-/// Heights over a coordinate of the material (m).
+/// Heights over the material (m).
 pub trait Heights: Debug + Send + Sync {
-    /// Height at a coordinate, in m or rad.
-    fn at(&self, coordinate: f64) -> f64;
+    /// Height at a coordinate along the surface, in m or rad, and at y across it (m).
+    fn at(&self, coordinate: f64, y: f64) -> f64;
 }
 
-/// The coordinate of the material that an irregularity depends on.
+/// The coordinate along a surface that an irregularity depends on, beside y across it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Along {
     /// x (m); heights are along z.
@@ -72,6 +72,15 @@ pub struct HeightTable {
     period: Option<f64>,
 }
 
+/// Heights on a grid of places x, y, bilinear between them. Beyond its edges those there go on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightGrid {
+    /// Places along and across, rising (m).
+    places: [Vec<f64>; 2],
+    /// Of each x those of all y (m).
+    heights: Vec<f64>,
+}
+
 /// Why points give no heights.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 pub enum HeightError {
@@ -98,6 +107,18 @@ pub enum HeightError {
         at: f64,
         /// Its height.
         height: f64,
+    },
+    /// Points that do not fill a grid.
+    #[error(
+        "{points} points lie at {along} places x and {across} places y: a grid has one at each of at least two and two"
+    )]
+    Grid {
+        /// Their number.
+        points: usize,
+        /// Different places along.
+        along: usize,
+        /// Different places across.
+        across: usize,
     },
     /// Coordinates do not rise.
     #[error("point {number} lies at {at}, which must be above that of the point before, {before}")]
@@ -130,10 +151,21 @@ pub enum HeightError {
 }
 
 impl HeightError {
+    /// What is wrong with the height at a place, whatever the other points are.
+    fn of(number: usize, at: f64, height: f64) -> Result<(), Self> {
+        if !(at.is_finite() && at.abs() <= LONGEST) {
+            return Err(Self::Place { number, at });
+        }
+        if !(height.is_finite() && height.abs() <= HIGHEST) {
+            return Err(Self::Height { number, at, height });
+        }
+        Ok(())
+    }
+
     /// Number of the point that is wrong, from 1.
     pub fn number(&self) -> usize {
         match *self {
-            Self::Few => 1,
+            Self::Few | Self::Grid { .. } => 1,
             Self::Place { number, .. }
             | Self::Height { number, .. }
             | Self::Order { number, .. }
@@ -153,12 +185,7 @@ impl HeightTable {
             return Err(HeightError::Few);
         }
         for (i, (&[at, height], number)) in points.iter().zip(1..).enumerate() {
-            if !(at.is_finite() && at.abs() <= LONGEST) {
-                return Err(HeightError::Place { number, at });
-            }
-            if !(height.is_finite() && height.abs() <= HIGHEST) {
-                return Err(HeightError::Height { number, at, height });
-            }
+            HeightError::of(number, at, height)?;
             if i > 0 && at <= points[i - 1][0] {
                 return Err(HeightError::Order { number, at, before: points[i - 1][0] });
             }
@@ -191,8 +218,64 @@ impl HeightTable {
     }
 }
 
+impl HeightGrid {
+    /// Heights from points [x, y, height] (m) in any order.
+    ///
+    /// # Errors
+    /// Points that are not finite, too high, or do not fill a grid.
+    pub fn new(points: &[[f64; 3]]) -> Result<Self, HeightError> {
+        for (&[x, y, height], number) in points.iter().zip(1..) {
+            HeightError::of(number, x, height)?;
+            HeightError::of(number, y, height)?;
+        }
+        let places = [0, 1].map(|axis| {
+            let mut all: Vec<f64> = points.iter().map(|point| point[axis]).collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            all
+        });
+        let [along, across] = [0, 1].map(|axis| places[axis].len());
+        let mut heights = vec![f64::NAN; along * across];
+        for &[x, y, height] in points {
+            let [i, j] =
+                [(0, x), (1, y)].map(|(axis, at)| places[axis].partition_point(|p| *p < at));
+            heights[i * across + j] = height;
+        }
+        let filled = points.len() == heights.len() && heights.iter().all(|z| z.is_finite());
+        if along < 2 || across < 2 || !filled {
+            return Err(HeightError::Grid { points: points.len(), along, across });
+        }
+        Ok(Self { places, heights })
+    }
+
+    /// The first and the last place along (0) or across (1) the surface.
+    pub fn ends(&self, axis: usize) -> [f64; 2] {
+        let places = &self.places[axis];
+        [places[0], places[places.len() - 1]]
+    }
+
+    /// The place before `at`, and which part of the way to the next one `at` lies.
+    fn before(places: &[f64], at: f64) -> (usize, f64) {
+        let next = places.partition_point(|place| *place <= at).clamp(1, places.len() - 1);
+        let [low, high] = [places[next - 1], places[next]];
+        (next - 1, ((at - low) / (high - low)).max(0.0).min(1.0))
+    }
+}
+
+impl Heights for HeightGrid {
+    fn at(&self, x: f64, y: f64) -> f64 {
+        let ((i, s), (j, t)) = (Self::before(&self.places[0], x), Self::before(&self.places[1], y));
+        let across = self.places[1].len();
+        let [near, far] = [j, j + 1].map(|j| {
+            let [z0, z1] = [i, i + 1].map(|i| self.heights[i * across + j]);
+            z0 + (z1 - z0) * s
+        });
+        near + (far - near) * t
+    }
+}
+
 impl Heights for HeightTable {
-    fn at(&self, coordinate: f64) -> f64 {
+    fn at(&self, coordinate: f64, _: f64) -> f64 {
         let (first, last) = (self.points[0], self.points[self.points.len() - 1]);
         let (s, after) = match self.period {
             Some(turn) => {
@@ -222,23 +305,65 @@ mod tests {
         for (x, z) in
             [(-9.0, 1e-3), (-1.0, 1e-3), (-0.5, 5e-4), (0.0, 0.0), (1.0, -1e-3), (7.0, -2e-3)]
         {
-            assert!((table.at(x) - z).abs() < 1e-18, "{x}");
+            assert!((table.at(x, 0.0) - z).abs() < 1e-18, "{x}");
         }
         assert_eq!(table.ends(), [-1.0, 2.0]);
-        assert!(table.at(f64::NAN).is_finite());
+        assert!(table.at(f64::NAN, 0.0).is_finite());
     }
 
     #[test]
     fn heights_of_a_wheel_repeat_after_a_turn_and_join_the_last_point_to_the_first() {
         let flat = HeightTable::around(vec![[-0.1, 0.0], [0.0, -1e-3], [0.1, 0.0]]).unwrap();
         for turn in -2..=2 {
-            let at = |angle: f64| flat.at(angle + f64::from(turn) * TAU);
+            let at = |angle: f64| flat.at(angle + f64::from(turn) * TAU, 0.0);
             assert!((at(0.0) + 1e-3).abs() < 1e-15 && (at(0.05) + 5e-4).abs() < 1e-15);
             assert!(at(3.0) == 0.0 && at(-0.2) == 0.0);
         }
         let open = HeightTable::around(vec![[0.0, 0.0], [5.0, 1e-3]]).unwrap();
-        assert!((open.at(0.5 * (5.0 + TAU)) - 5e-4).abs() < 1e-15);
+        assert!((open.at(0.5 * (5.0 + TAU), 0.0) - 5e-4).abs() < 1e-15);
         assert!(HeightTable::around(vec![[0.0, 1e-4], [3.0, 0.0], [6.2834, 1e-4]]).is_ok());
+    }
+
+    #[test]
+    fn a_grid_is_bilinear_and_has_the_bits_of_a_table_where_heights_are_the_same_across() {
+        let bilinear = |x: f64, y: f64| 1e-3 * (1.0 + 2.0 * x - 3.0 * y + 4.0 * x * y);
+        let places = [[0.0, 0.3], [0.0, -0.1], [0.5, 0.3], [0.2, -0.1], [0.5, -0.1], [0.2, 0.3]];
+        let grid = HeightGrid::new(&places.map(|[x, y]| [x, y, bilinear(x, y)])).unwrap();
+        assert_eq!([grid.ends(0), grid.ends(1)], [[0.0, 0.5], [-0.1, 0.3]]);
+        for x in [-1.0, 0.0, 0.1, 0.2, 0.33, 0.5, 2.0] {
+            for y in [-1.0, -0.1, 0.07, 0.3, 9.0] {
+                let expected = bilinear(x.clamp(0.0, 0.5), y.clamp(-0.1, 0.3));
+                assert!((grid.at(x, y) - expected).abs() < 1e-17, "{x} {y}");
+            }
+        }
+        assert!(grid.at(f64::NAN, f64::NAN).is_finite());
+        let points = [[-0.1, 1e-4], [0.03, -2e-4], [0.2, 3.3e-4]];
+        let rows = points.map(|[x, z]| [[x, -0.1, z], [x, 0.2, z]]).concat();
+        let (table, grid) =
+            (HeightTable::along(points.to_vec()).unwrap(), HeightGrid::new(&rows).unwrap());
+        for i in 0..100 {
+            let x = -0.13 + 0.00391 * f64::from(i);
+            assert_eq!(grid.at(x, 0.0317).to_bits(), table.at(x, 0.0).to_bits());
+        }
+    }
+
+    #[test]
+    fn points_that_fill_no_grid_are_told() {
+        let square = [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]];
+        let mut twice = square;
+        twice[3] = square[2];
+        let mut high = square;
+        high[2][2] = 0.1;
+        for (points, number, words) in [
+            (&[][..], 1, "0 points lie at 0 places x and 0 places y"),
+            (&square[..2], 1, "2 points lie at 1 places x and 2 places y"),
+            (&square[..3], 1, "3 points lie at 2 places x and 2 places y"),
+            (&twice, 1, "4 points lie at 2 places x and 2 places y"),
+            (&high, 3, "in mm or um?"),
+        ] {
+            let error = HeightGrid::new(points).unwrap_err();
+            assert!(error.number() == number && error.to_string().contains(words), "{error}");
+        }
     }
 
     #[test]

@@ -43,7 +43,9 @@ pub use grading::graded_line;
 pub use grid::{block, graded_block};
 pub use half::{NotSymmetric, half};
 pub use hex::{HEX_CORNERS, HEX_EDGES, HEX_FACES, hex_volume, quad_corner_areas};
-pub use irregularity::{Along, CLOSED, HIGHEST, HeightError, HeightTable, Heights, Irregularity};
+pub use irregularity::{
+    Along, CLOSED, HIGHEST, HeightError, HeightGrid, HeightTable, Heights, Irregularity,
+};
 pub use join::join;
 pub use layers::layers_below;
 pub use mesh::{Body, Face, Mesh, Surface};

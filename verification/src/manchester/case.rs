@@ -3,7 +3,7 @@
 use crate::problem::Cause;
 use creepage::scenario::wheel_on_rail::press_wheel;
 use friction::Coulomb;
-use halfspace::{Along, HalfSpaces, Inertia, Patch, Rigid, Rolling, Setup};
+use halfspace::{Along, Gap, HalfSpaces, Inertia, Patch, Rigid, Rolling, Setup, press};
 use mesh::profile::{Profile, WheelOnRail, rail_head, wheel_s1002};
 use std::sync::Arc;
 
@@ -18,9 +18,13 @@ const CANT: f64 = 1.0 / 40.0;
 const HALF_GAUGE: f64 = 0.5 * 1.435;
 const GAUGE_DEPTH: f64 = 14e-3;
 const HALF_WHEELSET: f64 = 0.5 * 1.360 + 0.070;
-/// Joints of the arcs of the benchmark's rail (m), by circles through its points (MBench_UIC60_v3.prr, CONTACT): they are
-/// not those of the standard, and put its points within 1.5 um of the arcs on the tread and 5.5 um on the gauge corner.
+/// Joints of the arcs of the benchmark's rail (m), by circles through its points (MBench_UIC60_v3.prr, CONTACT), which lie on
+/// them within 0.1 um: they are not those of the standard.
 pub(super) const JOINTS: [f64; 2] = [10.500e-3, 25.988e-3];
+/// y of its top by the same circles (m), from which its points are counted nearly.
+const TOP: f64 = 5.96e-6;
+/// A place on the gauge side of which one, and on the other side another place of contact lies in the plane of contact (m).
+const BETWEEN: f64 = 5e-3;
 /// Changes of the normal force within which vertical equilibrium is reached, and rounds to it.
 const BALANCED: f64 = 1e-3;
 const ROUNDS: usize = 30;
@@ -107,7 +111,7 @@ impl BenchmarkCase {
         guess: f64,
         rail: Profile,
     ) -> Result<(f64, Values), Cause> {
-        let bodies = HalfSpaces::new(2.0 * 1.28 * 82e9, 0.28, 7800.0);
+        let bodies = bodies();
         let (pair, top) = self.pair(rail).ok_or("the rail's profile is too short")?;
         let h = spacing(&pair, across)?;
         let mut normal = guess;
@@ -137,7 +141,7 @@ impl BenchmarkCase {
             return Ok((
                 h,
                 [
-                    1e3 * s * (middle.on_rail[0] - top),
+                    1e3 * s * (middle.on_rail[0] - top + TOP),
                     -s * middle.angle,
                     slip.longitudinal / mean,
                     -s * slip.lateral / mean,
@@ -154,6 +158,46 @@ impl BenchmarkCase {
         }
         Err("vertical equilibrium was not reached".into())
     }
+
+    /// The approach (mm) and the largest pressure (MPa) under CONTACT's normal force of a case with two places, which share it as if
+    /// neither deformed the other, on points as those of [`Self::rolled`]. Also the spacing (m).
+    pub(super) fn without_influence(
+        &self,
+        across: [f64; 2],
+        rail: Profile,
+    ) -> Result<(f64, [f64; 2]), Cause> {
+        let bodies = bodies();
+        let (pair, _) = self.pair(rail).ok_or("the rail's profile is too short")?;
+        let (h, normal) = (spacing(&pair, across)?, self.values[5]);
+        let pressed = press_wheel(&bodies, &pair, normal, h)?;
+        let field = &pressed.pressed.field;
+        let [low, left] = [field.first[1], field.first[0]];
+        let [high, right] = [1, 0].map(|axis| field.first[axis] + field.points[axis] as i64);
+        let cut = (BETWEEN / h) as i64;
+        let [one, other] = [low..cut, cut..high].map(|lines| {
+            let points = [right - left, lines.end - lines.start].map(|n| n as usize);
+            let first = [left, lines.start];
+            let places = lines.flat_map(|j| (left..right).map(move |i| [i, j]));
+            let gap = places.map(|place| pair.gap(&pressed.middle, place.map(|k| k as f64 * h)));
+            let gap = gap.map(|gap| gap.unwrap_or(f64::INFINITY)).collect();
+            Gap { spacing: h, first, points, gap }
+        });
+        let [mut least, mut most] = [0.0, normal];
+        loop {
+            let share = 0.5 * (least + most);
+            let first = press(&bodies, &one, share)?;
+            let second = press(&bodies, &other, normal - share)?;
+            if most - least < BALANCED {
+                let peak = Patch::Field(first.field).peak_pressure();
+                return Ok((h, [1e3 * first.approach, 1e-6 * peak]));
+            }
+            if first.approach < second.approach { least = share } else { most = share }
+        }
+    }
+}
+
+fn bodies() -> HalfSpaces {
+    HalfSpaces::new(2.0 * 1.28 * 82e9, 0.28, 7800.0)
 }
 
 /// Forces on the wheel along x and across (N) and moment about the normal (N m) in steady rolling.

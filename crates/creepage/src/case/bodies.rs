@@ -77,8 +77,9 @@ section! {
         /// `"60E1"`, the path of a file (SIMPACK's .prr, or two columns in mm), or points in m. Default: none.
         profile: Option<ProfileShape> => PROFILE.instead_of("bar.crown_radius");
         /// Heights of the top over its smooth shape (m), positive up, over x (m) from the first point of contact at the start:
-        /// corrugation, rough rails. `{ formula = "1e-5*cos(2*pi*x/0.04)" }`, or `{ file = "rail.csv" }` or
-        /// `{ points = [[x, height], ...] }`, linear between points that must cover the roll. Default: none.
+        /// corrugation, rough rails; or over x and y: squats. `{ formula = "1e-5*cos(2*pi*x/0.04)" }`, or `{ file = "rail.csv" }`
+        /// of two or three columns, `{ points = [[x, height], ...] }` or `{ grid = [[x, y, height], ...] }`, linear between points
+        /// that must cover the roll. Default: none.
         surface: Option<SurfaceHeights> => BAR_HEIGHTS;
         /// Angle about x (rad) by which a profile leans towards the middle of the track. Default 0.
         #[serde(skip_serializing_if = "is_default")]

@@ -80,7 +80,7 @@ pub enum Form {
     Curve(Range, Range),
     /// The name of a standard's profile, or a list of points [y, z] in m. In a file it may be the path of another file.
     Profile,
-    /// Heights over a coordinate of a surface: a formula or points. In a file they may be the path of another file.
+    /// Heights over a coordinate of a surface: a formula, points or a grid. In a file they may be the path of another file.
     Heights(Coordinate),
 }
 
@@ -124,7 +124,7 @@ impl Form {
 
     /// Why a value is not of this form, if it is not: the value, then what is wrong with it, or what is allowed.
     pub fn mistake(&self, unit: &str, value: &Value) -> Option<String> {
-        let problem = match (self, points(value)) {
+        let problem = match (self, points::<2>(value)) {
             (Self::OverTime(range), Some(points)) => not_over_time(&points, *range),
             (Self::Curve(speeds, mu), Some(points)) => not_a_curve(points, *speeds, *mu),
             (Self::Heights(over), _) if irregularity::is_written(value) => {
@@ -160,11 +160,10 @@ impl Form {
             }
             (Self::Stiffness, _) => lies_in(&STIFFNESS[0].1),
             (Self::Profile, Value::String(name)) => STANDARD_PROFILES.contains(&name.as_str()),
-            (Self::Profile, _) => points(value)
+            (Self::Profile, _) => points::<2>(value)
                 .is_some_and(|points| points.iter().flatten().all(|x| x.abs() <= LARGEST_PROFILE)),
-            (Self::Points(range), _) => {
-                points(value).is_some_and(|points| points.iter().flatten().all(|x| range.holds(*x)))
-            }
+            (Self::Points(range), _) => points::<2>(value)
+                .is_some_and(|points| points.iter().flatten().all(|x| range.holds(*x))),
             _ => false,
         }
     }

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 use toml::Value;
 
 use crate::case::section::words;
-use crate::case::value::{float, points};
+use crate::case::value::{float, listed, points};
 
 /// Transverse shape of a running surface: `"flat"`, or the radius of its crown.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -144,9 +144,7 @@ impl From<Creepage> for Value {
     fn from(creepage: Creepage) -> Self {
         match creepage {
             Creepage::Number(creepage) => creepage.into(),
-            Creepage::Table(points) => {
-                Self::Array(points.iter().map(|point| point.to_vec().into()).collect())
-            }
+            Creepage::Table(points) => listed(&points),
         }
     }
 }

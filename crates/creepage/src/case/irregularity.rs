@@ -1,10 +1,10 @@
-//! Heights of a running surface over its smooth shape: by a formula, or by points, which may stand in a file of their own.
+//! Heights of a running surface over its smooth shape: by a formula, by points or on a grid, which may stand in a file of their own.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use friction::Formula;
-use mesh::{HeightTable, Heights};
+use mesh::{HeightGrid, HeightTable, Heights};
 use output::files::input;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -12,8 +12,8 @@ use toml::Value;
 
 use crate::case::error::CaseError;
 use crate::case::layers::Layers;
-use crate::case::table::{Columns, Mistake, columns, of_file};
-use crate::case::value::points;
+use crate::case::table::{Columns, Mistake, columns, of_file, width};
+use crate::case::value::{listed, points};
 
 /// Most characters of a formula.
 const LONGEST_FORMULA: usize = 4000;
@@ -26,6 +26,10 @@ const KEYS: [(&str, &str, Coordinate); 2] =
 pub(crate) fn file_keys() -> impl Iterator<Item = String> {
     KEYS.iter().map(|(section, name, _)| format!("{section}.{name}.file"))
 }
+
+/// The columns of a grid.
+const GRID: Columns<3> =
+    Columns { what: ["a place x", "a place y", "a height"], units: ["m", "m", "m"] };
 
 /// What the heights of a surface are given over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,12 +44,15 @@ pub enum Coordinate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SurfaceHeights {
-    /// Path of a CSV file with two columns, coordinate and height. A case that is read has its points in their place.
+    /// Path of a CSV file with two columns, coordinate and height, of a bar also with three, x, y and height. A case that is read has
+    /// its points in their place.
     File(String),
-    /// Formula over `x` (m) or `angle` (rad, from -pi to pi).
+    /// Formula over `x` (m) or `angle` (rad, from -pi to pi), and `y` (m).
     Formula(String),
     /// Points (coordinate, height), coordinates rising: linear between them.
     Points(Vec<[f64; 2]>),
+    /// Points (x, y, height) of a bar on a rectangular grid, in any order: bilinear between them.
+    Grid(Vec<[f64; 3]>),
 }
 
 impl SurfaceHeights {
@@ -58,6 +65,7 @@ impl SurfaceHeights {
             Self::File(path) => Err(format!("the file \"{path}\" was not read")),
             Self::Formula(text) => Ok(Arc::new(Written::parse(text, over)?)),
             Self::Points(points) => Ok(Arc::new(over.table(points.clone())?)),
+            Self::Grid(points) => Ok(Arc::new(over.grid(points)?)),
         }
     }
 }
@@ -66,9 +74,13 @@ impl Coordinate {
     /// What a value may be, as a noun phrase.
     pub(crate) fn allowed(self) -> String {
         let name = self.name();
+        let [columns, grid] = match self {
+            Self::X => ["two or three columns", ", or { grid = [[x, y, height], ...] }"],
+            Self::Angle => ["two columns", ""],
+        };
         format!(
-            "{{ formula = \"...\" }} over {name}, {{ file = \"...\" }} of two columns, or {{ points = [[{name}, height], ...] }}, \
-             heights at most {} m",
+            "{{ formula = \"...\" }} over {name} and y, {{ file = \"...\" }} of {columns}, or {{ points = [[{name}, height], ...] \
+             }}{grid}, heights at most {} m",
             mesh::HIGHEST
         )
     }
@@ -81,7 +93,7 @@ impl Coordinate {
         }
     }
 
-    fn columns(self) -> Columns {
+    fn columns(self) -> Columns<2> {
         match self {
             Self::X => Columns { what: ["a place x", "a height"], units: ["m", "m"] },
             Self::Angle => Columns { what: ["an angle", "a height"], units: ["rad", "m"] },
@@ -100,12 +112,27 @@ impl Coordinate {
         }
     }
 
-    /// The points in the text of a file.
-    fn read(self, text: &str) -> Result<Vec<[f64; 2]>, Mistake> {
+    /// Points on a grid as heights.
+    fn grid(self, points: &[[f64; 3]]) -> Result<HeightGrid, String> {
+        match self {
+            Self::X => HeightGrid::new(points).map_err(|error| error.to_string()),
+            Self::Angle => Err("heights around the disk depend on the angle alone".into()),
+        }
+    }
+
+    /// The points in the text of a file: the name of the key that holds them, and its value.
+    fn read(self, text: &str) -> Result<(&'static str, Value), Mistake> {
+        let mistake = |e: mesh::HeightError, lines: &[usize]| {
+            Mistake::of_point(e.number(), lines, e.to_string())
+        };
+        if self == Self::X && width(text) == Some(3) {
+            let (points, lines) = columns(text, &GRID)?;
+            HeightGrid::new(&points).map_err(|e| mistake(e, &lines))?;
+            return Ok(("grid", listed(&points)));
+        }
         let (points, lines) = columns(text, &self.columns())?;
-        let checked = self.checked(points.clone());
-        checked.map_err(|e| Mistake::of_point(e.number(), &lines, e.to_string()))?;
-        Ok(points)
+        self.checked(points.clone()).map_err(|e| mistake(e, &lines))?;
+        Ok(("points", listed(&points)))
     }
 }
 
@@ -125,37 +152,38 @@ impl Written {
             ));
         }
         let names = match over {
-            Coordinate::X => "x, the place along the bar in m, pi",
-            Coordinate::Angle => "angle, the angle around the disk in rad, pi",
+            Coordinate::X => "x, the place along the bar in m, y, that across it in m, pi",
+            Coordinate::Angle => {
+                "angle, the angle around the disk in rad, y, the place across it in m, pi"
+            }
         };
-        let formula = Formula::parse(text, &[over.name(), "pi"], names);
+        let formula = Formula::parse(text, &[over.name(), "y", "pi"], names);
         Ok(Self { formula: formula.map_err(|error| error.to_string())?, over })
     }
 }
 
 impl Heights for Written {
-    fn at(&self, coordinate: f64) -> f64 {
+    fn at(&self, coordinate: f64, y: f64) -> f64 {
         let within = match self.over {
             Coordinate::X => coordinate,
             Coordinate::Angle => coordinate - TAU * ((coordinate + PI) / TAU).floor(),
         };
-        self.formula.value([within, PI])
+        self.formula.value([within, y, PI])
     }
 }
 
-/// Whether a value is a formula or points, right or wrong.
+/// Whether a value is a formula, points or a grid, right or wrong.
 pub(crate) fn is_written(value: &Value) -> bool {
     let Some(table) = value.as_table().filter(|table| table.len() == 1) else { return false };
     table.get("formula").is_some_and(Value::is_str)
-        || table.get("points").and_then(points).is_some()
+        || table.get("points").and_then(points::<2>).is_some()
+        || table.get("grid").and_then(points::<3>).is_some()
 }
 
-/// Why a formula or points give no heights, if they do not.
+/// Why a formula, points or a grid give no heights, if they do not.
 pub(crate) fn mistake(value: &Value, over: Coordinate) -> Option<String> {
-    let formula = value.get("formula").and_then(Value::as_str);
-    let parsed = formula.map_or(Ok(()), |text| Written::parse(text, over).map(|_| ()));
-    let points = value.get("points").and_then(points);
-    parsed.and_then(|()| points.map_or(Ok(()), |points| over.table(points).map(|_| ()))).err()
+    let given: SurfaceHeights = value.clone().try_into().ok()?;
+    given.heights(over).err()
 }
 
 /// Replaces the path in `bar.surface` and `disk.out_of_round` by the points of that file. The path is relative to the case file
@@ -166,9 +194,10 @@ pub(crate) fn mistake(value: &Value, over: Coordinate) -> Option<String> {
 pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
     for (key, (section, name, over)) in file_keys().zip(KEYS) {
         let remedy = format!(
-            "two columns: {}, rising, and height, with a comma between and decimal points; in {} and m without a unit, \
+            "two columns: {}, rising, and height{}, with a comma between and decimal points; in {} and m without a unit, \
              or in the units that a heading names: `{} ({}), height (um)`",
             over.name(),
+            if over == Coordinate::X { ", or three: x, y and height on a grid" } else { "" },
             over.columns().units[0],
             over.name(),
             if over == Coordinate::X { "mm" } else { "deg" }
@@ -178,9 +207,11 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
         let section = layers.table.get_mut(section).and_then(Value::as_table_mut);
         let given = section.and_then(|section| section.get_mut(name)?.as_table_mut());
         // a second entry beside the file is refused where the key is checked
-        if let (Some(points), Some(given)) = (points, given.filter(|given| given.len() == 1)) {
+        if let (Some((name, points)), Some(given)) =
+            (points, given.filter(|given| given.len() == 1))
+        {
             given.clear();
-            given.insert("points".into(), points);
+            given.insert(name.into(), points);
         }
     }
     Ok(())

@@ -156,7 +156,7 @@ pub(crate) const PROFILE: Key = key(
 pub(crate) const BAR_HEIGHTS: Key = key(
     Heights(Coordinate::X),
     "",
-    "give heights in metres over x in metres: `surface = { formula = \"1e-5*cos(2*pi*x/0.04)\" }`, or `{ file = \"rail.csv\" }`",
+    "give heights in metres over x and y in metres: `surface = { formula = \"1e-5*cos(2*pi*x/0.04)\" }`, or `{ file = \"rail.csv\" }`",
 )
 .finite_elements_only();
 pub(crate) const DISK_HEIGHTS: Key = key(

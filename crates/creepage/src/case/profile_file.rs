@@ -7,7 +7,7 @@ use toml::Value;
 
 use crate::case::error::CaseError;
 use crate::case::layers::Layers;
-use crate::case::value::get;
+use crate::case::value::{get, listed};
 
 /// Sections with a profile, whose it is, and the file's usual ending.
 const PROFILES: [(&str, ProfileBody, &str); 2] =
@@ -44,9 +44,8 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
                 "correct the file: two columns y and z in mm, y rising, z down",
             )
         })?;
-        let value = points.iter().map(|point| Value::from(point.to_vec())).collect();
         if let Some(Value::Table(table)) = layers.table.get_mut(section) {
-            table.insert("profile".into(), Value::Array(value));
+            table.insert("profile".into(), listed(&points));
         }
     }
     Ok(())

@@ -1,4 +1,4 @@
-//! A table of two columns in a file of its own, and how a friction table is read into the case.
+//! A table in columns in a file of its own, and how a friction table is read into the case.
 
 use friction::{Table, TableError};
 use output::files::input;
@@ -10,7 +10,7 @@ use crate::case::file::CaseFile;
 use crate::case::layers::Layers;
 use crate::case::places::Source;
 use crate::case::quantity::rounded;
-use crate::case::value::get;
+use crate::case::value::{get, listed};
 
 const KEY: &str = "friction.table";
 
@@ -20,14 +20,14 @@ pub const REMEDY: &str = "two columns: slip velocity, rising from 0, and coeffic
                           `slip (mm/s), mu (%)`; lines that start with # are passed over";
 
 /// What the columns of a file are, and their units in the case.
-pub(crate) struct Columns {
+pub(crate) struct Columns<const N: usize> {
     /// Each with its article.
-    pub what: [&'static str; 2],
+    pub what: [&'static str; N],
     /// SI units.
-    pub units: [&'static str; 2],
+    pub units: [&'static str; N],
 }
 
-const FRICTION: Columns =
+const FRICTION: Columns<2> =
     Columns { what: ["a slip velocity", "a coefficient of friction"], units: ["m/s", "-"] };
 
 /// Replaces a path in `friction.table` by the points of that file: slip velocity (m/s) and coefficient. The path is
@@ -40,22 +40,22 @@ pub fn inline(layers: &mut Layers) -> Result<(), CaseError> {
     let points = of_file(layers, KEY, input::TABLE, REMEDY, read)?;
     if let (Some(points), Some(Value::Table(friction))) = (points, layers.table.get_mut("friction"))
     {
-        friction.insert("table".into(), points);
+        friction.insert("table".into(), listed(&points));
     }
     Ok(())
 }
 
-/// The points that `read` finds in the file whose path is the value of `key`; none where it is no path.
+/// What `read` finds in the file whose path is the value of `key`; none where it is no path.
 ///
 /// # Errors
 /// A file that cannot be read, or in which `read` finds a mistake.
-pub(crate) fn of_file(
+pub(crate) fn of_file<T>(
     layers: &Layers,
     key: &str,
     kind: input::Kind,
     remedy: &str,
-    read: impl Fn(&str) -> Result<Vec<[f64; 2]>, Mistake>,
-) -> Result<Option<Value>, CaseError> {
+    read: impl Fn(&str) -> Result<T, Mistake>,
+) -> Result<Option<T>, CaseError> {
     let Some(path) = layers.file_at(key) else { return Ok(None) };
     let text = input::text(&path, kind).map_err(|error| {
         let shown = get(&layers.table, key).and_then(Value::as_str).unwrap_or_default();
@@ -66,7 +66,7 @@ pub(crate) fn of_file(
             &format!("give the path of a CSV file, {relative}"),
         )
     })?;
-    let points = read(&text).map_err(|Mistake { line, problem, points }| {
+    let found = read(&text).map_err(|Mistake { line, problem, points }| {
         let source = Source::file(CaseFile::Disk(path.clone()), text.clone());
         let (span, message) = (line_span(&text, line), format!("{key}: {problem}"));
         // A file without a point may be any readable file, also a private one: nothing of it is quoted.
@@ -76,8 +76,7 @@ pub(crate) fn of_file(
             source.unquoted_error(span, key, &message, remedy)
         }
     })?;
-    let value = points.iter().map(|point| Value::from(point.to_vec())).collect();
-    Ok(Some(Value::Array(value)))
+    Ok(Some(found))
 }
 
 /// Bytes of a line, counted from 1.
@@ -121,20 +120,26 @@ impl Mistake {
     }
 }
 
-/// The points in a text and the line of each: lines of two numbers with a comma between. Columns whose heading names a unit
+/// How many numbers stand in the first line of a text that holds nothing else.
+pub(crate) fn width(text: &str) -> Option<usize> {
+    let numbers = |row: &str| fields(row).iter().all(|field| field.parse::<f64>().is_ok());
+    text.lines().find(|row| numbers(row)).map(|row| fields(row).len())
+}
+
+/// The points in a text and the line of each: lines of `N` numbers with a comma between. Columns whose heading names a unit
 /// are converted.
 ///
 /// # Errors
 /// A line of another kind, a unit that cannot be converted.
-pub(crate) fn columns(
+pub(crate) fn columns<const N: usize>(
     text: &str,
-    columns: &Columns,
-) -> Result<(Vec<[f64; 2]>, Vec<usize>), Mistake> {
+    columns: &Columns<N>,
+) -> Result<(Vec<[f64; N]>, Vec<usize>), Mistake> {
     let mut points = Vec::new();
     let mut lines = Vec::new();
     let mut heading = None;
     let mut comments = Vec::new();
-    let mut in_one = [1.0; 2];
+    let mut in_one = [1.0; N];
     // a byte order mark is no part of the heading
     for (line, row) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
         let row = row.trim();
@@ -146,21 +151,24 @@ pub(crate) fn columns(
             continue;
         }
         let row_fields = fields(row);
-        let numbers: Vec<Option<f64>> = row_fields.iter().map(|field| field.parse().ok()).collect();
-        match numbers[..] {
-            [Some(first), Some(second)] => {
+        let parsed = |field: &&str| field.parse::<f64>().ok();
+        let numbers: Option<Vec<f64>> = row_fields.iter().map(parsed).collect();
+        let numbers = numbers.and_then(|numbers| <[f64; N]>::try_from(numbers).ok());
+        let words = row_fields.len() == N && row_fields.iter().all(|field| parsed(field).is_none());
+        match numbers {
+            Some(numbers) => {
                 if points.is_empty() {
                     // only now is the file known to be a table, of which a message may quote the heading
                     in_one = units_in_one(heading.as_ref(), &comments, columns)?;
                 }
                 // 9 mm/s divided by 1000 are 0.009 m/s, times 1e-3 a bit more
-                points.push([first / in_one[0], second / in_one[1]]);
+                points.push(std::array::from_fn(|i| numbers[i] / in_one[i]));
                 lines.push(line);
             }
-            [None, None] if points.is_empty() && heading.is_none() => {
+            None if words && points.is_empty() && heading.is_none() => {
                 heading = Some((line, row_fields));
             }
-            _ => {
+            None => {
                 let points = !points.is_empty();
                 let what = if points { format!("'{row}'") } else { "this line".into() };
                 let problem = match row.contains([';', '\t']) {
@@ -187,14 +195,14 @@ fn fields(row: &str) -> Vec<&str> {
 type Heading<'a> = (usize, Vec<&'a str>);
 
 /// How many units of each column are one of the case.
-fn units_in_one(
+fn units_in_one<const N: usize>(
     heading: Option<&Heading>,
     comments: &[Heading],
-    Columns { what, units }: &Columns,
-) -> Result<[f64; 2], Mistake> {
+    Columns { what, units }: &Columns<N>,
+) -> Result<[f64; N], Mistake> {
     let mistake = |line: usize, problem: String| Err(Mistake { line, problem, points: true });
     if let Some((line, names)) = heading {
-        let mut in_one = [1.0; 2];
+        let mut in_one = [1.0; N];
         for ((in_one, name), (unit, wanted)) in
             in_one.iter_mut().zip(names).zip(units.iter().zip(what))
         {
@@ -210,8 +218,10 @@ fn units_in_one(
     }
     // a heading behind a # is passed over, and so would be its unit
     for (line, names) in comments {
-        let [first, second] = names[..] else { continue };
-        for (name, unit) in [(first, units[0]), (second, units[1])] {
+        if names.len() != N {
+            continue;
+        }
+        for (name, unit) in names.iter().zip(units) {
             if unit_size(name, unit).is_ok_and(|size| size != 1.0) {
                 let problem =
                     format!("'{name}' names a unit, but stands in a line that starts with #");
@@ -219,7 +229,7 @@ fn units_in_one(
             }
         }
     }
-    Ok([1.0; 2])
+    Ok([1.0; N])
 }
 
 #[cfg(test)]

@@ -47,13 +47,18 @@ pub fn whole(value: &Value) -> Option<u64> {
     }
 }
 
-/// The pairs of numbers that a value holds, if it is a list of them.
-pub fn points(value: &Value) -> Option<Vec<[f64; 2]>> {
-    let pair = |value: &Value| match value.as_array()?.as_slice() {
-        [first, second] => Some([float(first)?, float(second)?]),
-        _ => None,
+/// The pairs (or `N` at a time) of numbers that a value holds, if it is a list of them.
+pub fn points<const N: usize>(value: &Value) -> Option<Vec<[f64; N]>> {
+    let point = |value: &Value| {
+        let numbers: Vec<f64> = value.as_array()?.iter().map(float).collect::<Option<_>>()?;
+        numbers.try_into().ok()
     };
-    value.as_array()?.iter().map(pair).collect()
+    value.as_array()?.iter().map(point).collect()
+}
+
+/// A list of points as a value.
+pub fn listed<const N: usize>(points: &[[f64; N]]) -> Value {
+    Value::Array(points.iter().map(|point| Value::from(point.to_vec())).collect())
 }
 
 /// A number as a person would write it.

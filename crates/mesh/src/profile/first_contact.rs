@@ -198,8 +198,8 @@ impl WheelOnRail {
     }
 
     /// The point on the rail in the middle of where the undeformed bodies would overlap by `approach` (m) at most, as CONTACT takes
-    /// it: each point of the overlap counts by the square of its depth, and its length along x grows as the root of the depth.
-    /// The angle is the mean of the rail's with the same weights.
+    /// it: each point of the overlap counts by the square of its vertical depth, and its length along x grows as the root of the
+    /// depth. The angle is the mean of the rail's with the same weights.
     pub fn centre_of_overlap(&self, first: &ContactPoint, approach: f64) -> Option<ContactPoint> {
         let (mut sum, mut moment, mut turned) = (0.0, 0.0, 0.0);
         self.each_overlap(first, approach, |s, angle, depth| {
@@ -307,19 +307,21 @@ impl WheelOnRail {
         let [low, high] = self.wheel.ends();
         let apart = 1.5 * (high - low) / SAMPLES as f64;
         let mut found: Vec<Overlap> = Vec::new();
-        self.each_overlap(first, approach, |s, angle, depth| match found.last_mut() {
-            Some(part) if s - part.ends[1] < apart => {
-                part.ends[1] = s;
-                if depth > part.depth {
-                    (part.angle, part.depth) = (angle, depth);
+        self.each_overlap(first, approach, |s, angle, down| {
+            match (found.last_mut(), down * libm::cos(angle)) {
+                (Some(part), depth) if s - part.ends[1] < apart => {
+                    part.ends[1] = s;
+                    if depth > part.depth {
+                        (part.angle, part.depth) = (angle, depth);
+                    }
                 }
+                (_, depth) => found.push(Overlap { ends: [s, s], angle, depth }),
             }
-            _ => found.push(Overlap { ends: [s, s], angle, depth }),
         });
         found
     }
 
-    /// Hands over the samples of the wheel's profile that overlap, with the rail's angle and the depth (m).
+    /// Hands over the samples of the wheel's profile that overlap, with the rail's angle and the vertical depth (m).
     fn each_overlap(
         &self,
         first: &ContactPoint,
@@ -334,10 +336,9 @@ impl WheelOnRail {
         for i in 0..=SAMPLES {
             let s = low + (high - low) * i as f64 / SAMPLES as f64;
             let Some([z, _, _, slope]) = self.height(&axes, s) else { continue };
-            let angle = libm::atan(slope);
-            let depth = (down - (z - contact)) * libm::cos(angle);
+            let depth = down - (z - contact);
             if depth > 0.0 {
-                visit(s, angle, depth);
+                visit(s, libm::atan(slope), depth);
             }
         }
     }

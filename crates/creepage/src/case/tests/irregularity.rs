@@ -24,7 +24,7 @@ fn heights_in_a_file_are_read_in_the_units_of_its_heading_and_kept_in_the_case()
         let height = 0.25e-3
             * (1.0
                 - libm::fabs(libm::remainder(angle, std::f64::consts::TAU)) / std::f64::consts::PI);
-        assert!((around.at(angle) - height).abs() < 1e-12, "{angle}");
+        assert!((around.at(angle, 0.0) - height).abs() < 1e-12, "{angle}");
     }
     let again = Case::from_text(&found.to_toml(), Path::new("case.toml"), &[]).unwrap();
     assert_eq!(again, found);
@@ -41,6 +41,21 @@ fn heights_in_a_file_are_read_in_the_units_of_its_heading_and_kept_in_the_case()
         fs::write(&rail, text).unwrap();
         refused(load(), words);
     }
+    fs::write(&rail, "x (mm),y (mm),z (um)\n-100,-20,0\n-100,20,10\n200,-20,20\n200,20,30\n")
+        .unwrap();
+    let found = load().unwrap();
+    let grid = [[-0.1, -0.02, 0.0], [-0.1, 0.02, 1e-5], [0.2, -0.02, 2e-5], [0.2, 0.02, 3e-5]];
+    assert_eq!(found.bar.surface, Some(SurfaceHeights::Grid(grid.to_vec())));
+    let again = Case::from_text(&found.to_toml(), Path::new("case.toml"), &[]).unwrap();
+    assert_eq!(again, found);
+    for (text, words) in [
+        ("-0.1,-1,0\n-0.1,1,0\n0.2,-1,0\n0.2,1,1\n", &["rail.csv:4:", "mm or um?"][..]),
+        ("-0.1,-1,0\n-0.1,1,0\n0.2,-1,0\n", &["rail.csv:1:", "3 points lie at 2 places x"]),
+        ("x,y,z\n-0.1,-1,0\n-0.1,1\n", &["rail.csv:3:", "is not a place x and a place y"]),
+    ] {
+        fs::write(&rail, text).unwrap();
+        refused(load(), words);
+    }
     fs::remove_file(&rail).unwrap();
     refused(load(), &["bar.surface.file", "rail.csv"]);
 }
@@ -53,18 +68,39 @@ fn a_formula_has_the_names_of_its_coordinate_and_repeats_after_a_turn() {
     ]);
     let case = case.unwrap();
     let along = case.bar.surface.unwrap().heights(Coordinate::X).unwrap();
-    assert!((along.at(0.02) + 1e-5).abs() < 1e-19 && (along.at(0.08) - 1e-5).abs() < 1e-19);
+    assert!(
+        (along.at(0.02, 0.0) + 1e-5).abs() < 1e-19 && (along.at(0.08, 1.0) - 1e-5).abs() < 1e-19
+    );
     let around = case.disk.out_of_round.unwrap().heights(Coordinate::Angle).unwrap();
     for turn in [0.0, 1.0, -3.0] {
-        let at = |angle: f64| around.at(angle + turn * std::f64::consts::TAU);
+        let at = |angle: f64| around.at(angle + turn * std::f64::consts::TAU, 0.0);
         assert!((at(0.0) + 1e-4).abs() < 1e-14 && at(3.0) == 0.0 && at(-3.0) == 0.0);
+    }
+}
+
+#[test]
+fn heights_that_a_half_model_or_a_slice_cannot_have_are_refused() {
+    let dent =
+        |place: &str| format!("bar.surface={{ formula = \"-1e-5*exp(-({place}/1e-2)^2)\" }}");
+    for (place, half, slice) in [("x", true, true), ("y", true, false), ("(y-1e-3)", false, false)]
+    {
+        let given = dent(place);
+        assert!(set(&[&given]).is_ok(), "{place}");
+        for (model, fits) in [("mesh.symmetry=half", half), ("mesh.plane_strain=true", slice)] {
+            let found = set(&[&given, model, "bar.crown_radius=flat"]);
+            if fits {
+                assert!(found.is_ok(), "{place} {model}");
+            } else {
+                refused(found, &["bar.surface gives", "takes for the same"]);
+            }
+        }
     }
 }
 
 #[test]
 fn heights_that_are_none_are_refused_by_their_key() {
     for (given, words) in [
-        ("bar.surface={ formula = \"1e-5*cos(y)\" }", &["unknown name 'y'", "x, the place"][..]),
+        ("bar.surface={ formula = \"1e-5*cos(z)\" }", &["unknown name 'z'", "x, the place"][..]),
         ("bar.surface={ formula = \"cos(\" }", &["cannot read the formula"]),
         ("bar.surface={ formula = \"0.01\" }", &["0.01 m at x", "1e-5 for 10 um"]),
         ("bar.surface={ formula = \"1e-5*ln(x)\" }", &["NaN m at x", "finite"]),
@@ -78,6 +114,21 @@ fn heights_that_are_none_are_refused_by_their_key() {
         ("bar.surface={ points = [[-1, 0], [0.05, 0]] }", &["the patch needs them from"]),
         ("disk.out_of_round={ points = [[0, 0], [360, 0]] }", &["degrees"]),
         ("bar.surface={ points = [[0, 0, 0]] }", &["must be", "formula"]),
+        ("bar.surface={ formula = \"0.2*y^2\" }", &["0.00018 m"]),
+        (
+            "bar.surface={ grid = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }",
+            &["2 places x and 2 places y"],
+        ),
+        (
+            "bar.surface={ grid = [[-1, 0, 0], [1, 0, 0], [-1, 1, 0], [1, 1, 0]] }",
+            &["patch is", "wide"],
+        ),
+        (
+            "bar.surface={ grid = [[0, -1, 0], [1, -1, 0], [0, 1, 0], [1, 1, 0]] }",
+            &["the patch needs them"],
+        ),
+        ("bar.surface={ grid = [[0, 0]] }", &["must be", "grid"]),
+        ("disk.out_of_round={ grid = [[0, 0, 0]] }", &["the angle alone"]),
         ("bar.surface={ formula = 3 }", &["must be", "formula"]),
         ("bar.surface={ points = [[-1, 0], [1, 0]], formula = \"0\" }", &["must be", "formula"]),
         ("bar.surface={}", &["must be", "formula"]),

@@ -1,14 +1,16 @@
-//! Heights of the running surfaces: where the bodies roll they are finite and small.
+//! Heights of the running surfaces: where the bodies roll they are finite and small, and as symmetric as the model.
 
 use super::Findings;
 use crate::case::hertz::hertz;
 use crate::case::irregularity::{Coordinate, SurfaceHeights};
-use crate::case::schema::Case;
+use crate::case::schema::{Case, Symmetry};
 use crate::case::value::{digits, number};
+use mesh::{HeightGrid, HeightTable, Heights};
 use std::f64::consts::PI;
 
-/// Places at which a formula is tried.
+/// Places along and, on either side of the middle, across at which a formula is tried.
 const TRIALS: u32 = 4000;
+const TRIALS_ACROSS: i32 = 4;
 /// Room beside the patch that points must cover, in its half lengths.
 const ROOM: f64 = 2.0;
 
@@ -20,16 +22,77 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
         ("bar.surface", &case.bar.surface, Coordinate::X, bar),
         ("disk.out_of_round", &case.disk.out_of_round, Coordinate::Angle, [-PI, PI]),
     ];
+    let half = 0.5 * case.disk.width.min(case.bar.width);
+    let across = (-TRIALS_ACROSS..=TRIALS_ACROSS)
+        .map(|j| half * f64::from(j) / f64::from(TRIALS_ACROSS))
+        .collect::<Vec<f64>>();
     for (key, given, over, [first, last]) in keys {
-        if let Some(given @ SurfaceHeights::Formula(_)) = given {
-            let at = |i: u32| first + (last - first) * f64::from(i) / f64::from(TRIALS);
-            check_formula(given, over, (0..=TRIALS).map(at), key, found);
+        let Some(given) = given else { continue };
+        // heights that do not parse were refused before
+        let Ok(heights) = given.heights(over) else { continue };
+        let at = |i: u32| first + (last - first) * f64::from(i) / f64::from(TRIALS);
+        let places = || (0..=TRIALS).flat_map(|i| across.iter().map(move |&y| [at(i), y]));
+        if matches!(given, SurfaceHeights::Formula(_)) {
+            check_formula(&*heights, over, places(), key, found);
         }
+        check_symmetry(case, &*heights, places(), key, found);
     }
-    let Some(SurfaceHeights::Points(points)) = &case.bar.surface else { return };
-    let room = ROOM * hertz(case).a;
+    check_reach(case, found);
+}
+
+/// A slice has the same heights at all y, a half model at y and -y.
+fn check_symmetry(
+    case: &Case,
+    heights: &dyn Heights,
+    mut places: impl Iterator<Item = [f64; 2]>,
+    key: &str,
+    found: &mut Findings<'_>,
+) {
+    let other = |y: f64| if case.mesh.plane_strain { 0.0 } else { -y };
+    let differ =
+        |at: f64, y: f64| (heights.at(at, y) - heights.at(at, other(y))).abs() > mesh::CLOSED;
+    let symmetric = case.mesh.plane_strain || case.mesh.symmetry == Symmetry::Half;
+    let wrong = places.find(|&[at, y]| symmetric && differ(at, y));
+    found.require(
+        wrong.is_none(),
+        &[key, if case.mesh.plane_strain { "mesh.plane_strain" } else { "mesh.symmetry" }],
+        wrong.map_or(String::new(), |[at, y]| {
+            let [here, there] = [y, other(y)].map(|y| (number(y), digits(heights.at(at, y))));
+            format!(
+                "{key} gives {} m at y = {} m and {} m at y = {} m, which this model takes for the same",
+                here.1, here.0, there.1, there.0
+            )
+        }),
+        "give heights that are the same there, or model both halves (mesh.symmetry = \"none\", mesh.plane_strain = false)",
+    );
+}
+
+/// Points of a bar lie wherever the patch goes.
+fn check_reach(case: &Case, found: &mut Findings<'_>) {
+    let patch = hertz(case);
+    let ends = match &case.bar.surface {
+        Some(SurfaceHeights::Points(points)) => HeightTable::along(points.clone())
+            .map(|table| [table.ends(), [f64::NEG_INFINITY, f64::INFINITY]]),
+        Some(SurfaceHeights::Grid(points)) => {
+            HeightGrid::new(points).map(|grid| [grid.ends(0), grid.ends(1)])
+        }
+        _ => return,
+    };
+    let Ok([ends, [low, high]]) = ends else { return };
+    let half = if case.mesh.plane_strain { 0.0 } else { patch.b };
+    found.require(
+        low <= -half && high >= half,
+        &["bar.surface"],
+        format_args!(
+            "bar.surface gives heights from y = {} to {} m, but the patch is {} m wide",
+            number(low),
+            number(high),
+            digits(2.0 * half)
+        ),
+        "give heights over the width of the patch; y is in metres from the point of first contact",
+    );
+    let room = ROOM * patch.a;
     let (rear, front) = (-room, case.rolled() + room);
-    let ends = [points.first(), points.last()].map(|point| point.map_or(f64::NAN, |[x, _]| *x));
     found.require(
         ends[0] <= rear && ends[1] >= front,
         &["bar.surface", "time.roll", "time.duration"],
@@ -47,30 +110,29 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
 
 /// A formula has small heights everywhere; around the disk it closes.
 fn check_formula(
-    given: &SurfaceHeights,
+    heights: &dyn Heights,
     over: Coordinate,
-    places: impl Iterator<Item = f64>,
+    mut places: impl Iterator<Item = [f64; 2]>,
     key: &str,
     found: &mut Findings<'_>,
 ) {
-    // one that does not parse was refused before
-    let Ok(heights) = given.heights(over) else { return };
     let small = |z: f64| z.abs() <= mesh::HIGHEST;
-    let wrong = places.map(|at| (at, heights.at(at))).find(|(_, z)| !small(*z));
+    let wrong = places.find(|&[at, y]| !small(heights.at(at, y)));
     found.require(
         wrong.is_none(),
         &[key],
-        wrong.map_or(String::new(), |(at, z)| {
+        wrong.map_or(String::new(), |[at, y]| {
             let (name, most) = (over.name(), number(mesh::HIGHEST));
             format!(
-                "{key}: the formula gives {} m at {name} = {}: heights must be finite and at most {most} m in size",
-                digits(z),
-                digits(at)
+                "{key}: the formula gives {} m at {name} = {}, y = {}: heights must be finite and at most {most} m in size",
+                digits(heights.at(at, y)),
+                digits(at),
+                digits(y)
             )
         }),
         "give heights in metres: 1e-5 for 10 um",
     );
-    let ends = [-PI, PI * (1.0 - 1e-12)].map(|angle| heights.at(angle));
+    let ends = [-PI, PI * (1.0 - 1e-12)].map(|angle| heights.at(angle, 0.0));
     found.require(
         over == Coordinate::X || wrong.is_some() || (ends[1] - ends[0]).abs() <= mesh::CLOSED,
         &[key],

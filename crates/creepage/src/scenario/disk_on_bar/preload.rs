@@ -87,7 +87,7 @@ impl Bodies<'_> {
     /// How far irregular surfaces lie over the smooth ones at the first point of contact (m).
     fn height(&self) -> f64 {
         let irregular = self.model.surfaces.iter().filter_map(|side| side.irregularity.as_ref());
-        irregular.map(|surface| surface.heights.at(0.0)).sum()
+        irregular.map(|surface| surface.heights.at(0.0, 0.0)).sum()
     }
 
     /// By Newton's method.
