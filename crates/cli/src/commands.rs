@@ -132,7 +132,7 @@ pub enum Command {
         docs/ls-dyna.md. All others are refused by file and line."
     )]
     ImportK(ImportKOptions),
-    /// Make case files of half-spaces of an input file of CONTACT for a wheel on a rail (module 1)
+    /// Make case files of half-spaces of an input file of CONTACT: a wheel on a rail (module 1), two bodies (module 3)
     #[command(
         after_help = "Example:\n  creepage import-inp mbench_a22_left.inp --case 7 --out left\n  creepage run \
         left/case-7.toml\n\nWhat half-spaces in steady rolling cannot say is refused by its name and line: \

@@ -1,14 +1,17 @@
-//! Input files of CONTACT (Vollebregt, "CONTACT user guide", App. A): from their cases of module 1, a wheel on a rail, to case
-//! files of half-spaces.
+//! Input files of CONTACT (Vollebregt, "CONTACT user guide", App. A): from their cases of modules 1, a wheel on a rail,
+//! and 3, two bodies with a quadratic gap, to case files of half-spaces.
 //!
 //! What the digits and numbers of a case keep from the cases before it is kept here too. A digit without a meaning for half-spaces in
 //! steady rolling is refused by its name and line; digits and numbers of solvers and output change no solution, and are passed over.
 
+mod basic;
+mod common;
 mod reader;
 mod wheel_rail;
 
 pub use reader::InpError;
 
+use basic::Basic;
 use reader::Reader;
 use wheel_rail::WheelRail;
 
@@ -21,28 +24,42 @@ pub struct InpCase {
     pub text: String,
 }
 
-/// The cases of an input file. `folder` is that of the file, to which the names of profiles are relative.
+/// The cases of an input file, or the `wanted` one alone, behind which nothing is read. `folder` is that of the file, to which the
+/// names of profiles are relative.
 ///
 /// # Errors
 /// [`InpError`]: a line that does not follow the format, or says what half-spaces cannot.
-pub fn inp_cases(text: &str, folder: &std::path::Path) -> Result<Vec<InpCase>, InpError> {
+pub fn inp_cases(
+    text: &str,
+    folder: &std::path::Path,
+    wanted: Option<usize>,
+) -> Result<Vec<InpCase>, InpError> {
     let mut reader = Reader::new(text);
-    let mut wheel_rail = WheelRail::new(folder);
+    let (mut wheel_rail, mut basic) = (WheelRail::new(folder), Basic::default());
     let (mut cases, mut module, mut number) = (Vec::new(), 0, 0);
-    while module > 0 || !reader.is_at_end() {
+    while wanted != Some(number) && (module > 0 || !reader.is_at_end()) {
         if module == 0 {
             let group = reader.numbers(&["MODULE"], 2)?;
             module = group.get(0) as u32;
             if module == 0 {
                 break;
             }
-            group.must_be("MODULE", 1.0, "only module 1, a wheel on a rail, is read")?;
+            if module != 3 {
+                group.must_be(
+                    "MODULE",
+                    1.0,
+                    "only 1, a wheel on a rail, and 3, two bodies, are read",
+                )?;
+            }
         }
         number += 1;
-        let (back, text) = wheel_rail.read(&mut reader)?;
+        let (back, text) = match module {
+            1 => wheel_rail.read(&mut reader)?,
+            _ => basic.read(&mut reader)?,
+        };
         back.one_of(&[0, 1, 2, 3])?;
         // 2 and 3 skip the case, 1 and 3 return to the choice of a module
-        if back.value < 2 {
+        if back.value < 2 && wanted.is_none_or(|wanted| wanted == number) {
             cases.push(InpCase { number, text });
         }
         if back.value % 2 == 1 {

@@ -71,9 +71,24 @@ pub fn hertz(case: &Case) -> Hertz {
         return line(load / width, along, modulus, width);
     }
     // Half the sum of the curvatures in each direction, the gap being A x^2 + B y^2.
-    let (gap_x, gap_y) = (along / 2.0, across / 2.0);
-    let ellipse = ellipse(load, gap_x.min(gap_y), gap_x.max(gap_y), modulus);
-    if gap_x <= gap_y { ellipse } else { Hertz { a: ellipse.b, b: ellipse.a, ..ellipse } }
+    of_gap(load, [along / 2.0, across / 2.0], modulus)
+}
+
+/// Hertz's contact of bodies with the gap A x^2 + B y^2, A and B in 1/m, under a load (N); `modulus` (Pa) is E*.
+pub(crate) fn of_gap(load: f64, [along, across]: [f64; 2], modulus: f64) -> Hertz {
+    let ellipse = ellipse(load, along.min(across), along.max(across), modulus);
+    if along <= across { ellipse } else { Hertz { a: ellipse.b, b: ellipse.a, ..ellipse } }
+}
+
+/// The gap whose patch has these half axes along x and y (m): the inverse of [`of_gap`].
+pub(crate) fn gap_of_axes(load: f64, axes: [f64; 2], modulus: f64) -> [f64; 2] {
+    let (long, short) = (axes[0].max(axes[1]), axes[0].min(axes[1]));
+    // a circle has the limit (K - E)/m = pi/4
+    let m = (1.0 - (short / long).powi(2)).max(1e-9);
+    let (k, e) = elliptic(m);
+    let low = 1.5 * load * (k - e) / (PI * modulus * m * long.powi(3));
+    let high = low * (e / (1.0 - m) - k) / (k - e);
+    if axes[0] >= axes[1] { [low, high] } else { [high, low] }
 }
 
 /// Dundurs' constant beta of a case's disk and bar (dimensionless), zero for like materials (Johnson 1985, Eq 5.3):
@@ -132,4 +147,19 @@ fn elliptic(m: f64) -> (f64, f64) {
     }
     let k = PI / (2.0 * x);
     (k, k * (1.0 - sum))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_gap_of_given_axes_has_those_axes() {
+        for axes in [[8e-3, 4e-3], [3e-3, 5e-3], [5e-3, 5e-3]] {
+            let found = of_gap(82e3, gap_of_axes(82e3, axes, 1.1e11), 1.1e11);
+            for (found, given) in [found.a, found.b].iter().zip(axes) {
+                assert!((found / given - 1.0).abs() < 1e-4, "{found} {given}");
+            }
+        }
+    }
 }

@@ -44,12 +44,10 @@ pub fn import_inp(options: &ImportInpOptions) -> Result<ImportedInp, Error> {
     let text = input::text(&options.file, input::CASE)
         .map_err(|error| Error::option(format!("{file}: {}", error.problem()), error.remedy()))?;
     let parent = options.file.parent().unwrap_or(Path::new(""));
-    let all = inp_cases(&text, parent).map_err(|error| {
+    let all = inp_cases(&text, parent, options.case).map_err(|error| {
         let remedy = "half-spaces say steady rolling of one material by a force and creepages: change the file, or run it with CONTACT";
         Error::option(format!("{file}: {error}"), remedy)
     })?;
-    let chosen = |number: usize| options.case.is_none_or(|wanted| wanted == number);
-    let all: Vec<_> = all.into_iter().filter(|case| chosen(case.number)).collect();
     if all.is_empty() {
         let problem = format!("{file} holds no such case");
         return Err(Error::option(problem, "leave --case out, or give a number that it has"));

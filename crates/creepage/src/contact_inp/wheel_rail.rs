@@ -1,5 +1,6 @@
 //! Module 1: a wheel on a rail.
 
+use super::common::Common;
 use super::reader::{Digit, InpError, Reader};
 use crate::case::profile_at;
 use mesh::profile::{Profile, ProfileBody};
@@ -13,11 +14,8 @@ const MM: f64 = 1e-3;
 #[derive(Debug, Default)]
 pub(super) struct WheelRail {
     folder: PathBuf,
-    read_before: bool,
-    /// Coefficient of friction, Poisson's ratio, shear modulus (Pa), spacing (m).
-    mu: f64,
-    poisson: f64,
-    shear: f64,
+    common: Common,
+    /// Spacing (m).
     spacing: f64,
     /// Depth of the gauge point, half the gauge (m), and lean of the rail (rad).
     track: [f64; 3],
@@ -59,17 +57,10 @@ impl WheelRail {
         ] {
             digit.one_of(allowed)?;
         }
-        let back = self.read_solver(reader)?;
-        if law.value == 0 {
-            let friction = reader.numbers(&["FSTAT", "FKIN"], 0)?;
-            friction.same("FSTAT", "FKIN")?;
-            self.mu = friction.get(0);
-        }
+        let back = self.common.read_solver(reader)?;
+        self.common.read_friction(reader, law)?;
         if influence.value == 2 {
-            let material = reader.numbers(&["POISS1", "POISS2", "GG1", "GG2"], 0)?;
-            material.same("POISS1", "POISS2")?;
-            material.same("GG1", "GG2")?;
-            (self.poisson, self.shear) = (material.get(0), 1e6 * material.get(2));
+            self.common.read_material(reader)?;
         }
         if grid.value >= 2 {
             let grid = reader.numbers(&["DX", "DS", "DQREL", "A_SEP", "D_SEP", "D_COMB"], 2)?;
@@ -81,27 +72,6 @@ impl WheelRail {
         let outward = if side.value == 1 { 1.0 } else { -1.0 };
         let text = self.case(outward);
         Ok((back, text.map_err(|problem| InpError::new(reader.line(), problem))?))
-    }
-
-    /// The digits of solver and output, and the numbers that follow of them.
-    fn read_solver(&mut self, reader: &mut Reader<'_>) -> Result<Digit, InpError> {
-        let names = ["XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"];
-        let [debug, heat, solver, .., back] = reader.digits(names)?;
-        heat.one_of(&[0])?;
-        solver.one_of(&[0, 1, 2, 3, 4])?;
-        if debug.value == 1 {
-            reader.numbers(&["PSFLCIN"], 1)?;
-        }
-        if solver.value != 1 || !self.read_before {
-            reader.numbers(&["MAXGS", "MAXIN", "MAXNR", "MAXOUT", "EPS"], 1)?;
-        }
-        self.read_before = true;
-        match solver.value {
-            2 | 3 => drop(reader.numbers(&["OMEGAH", "OMEGAS", "INISLP", "OMGSLP"], 0)?),
-            4 => drop(reader.numbers(&["INISLP", "OMGSLP"], 0)?),
-            _ => {}
-        }
-        Ok(back)
     }
 
     fn read_track(&mut self, reader: &mut Reader<'_>, track: Digit) -> Result<(), InpError> {
@@ -173,18 +143,16 @@ impl WheelRail {
         let wheel = half_wheelset * libm::cos(yaw) * libm::cos(roll) + outward * lateral;
         let path = |path: &Path| toml::Value::from(path.display().to_string());
         let [wheel_file, rail_file] = [path(&self.wheel), path(&self.rail)];
-        let young = 2.0 * (1.0 + self.poisson) * self.shear;
         Ok(format!(
             "model = \"half-space\"\nhalf_space.inertia = false\n\n[disk]\nradius = {radius:?}\nprofile = {wheel_file}\n\
-             lateral = {:?}\nyaw = {:?}\nroll = {:?}\n\n[bar]\nprofile = {rail_file}\ncant = {cant:?}\n\n[material]\n\
-             young = {young:?}\npoisson = {:?}\n\n[friction]\nstatic = {:?}\n\n# a vertical force in CONTACT; here along the \
+             lateral = {:?}\nyaw = {:?}\nroll = {:?}\n\n[bar]\nprofile = {rail_file}\ncant = {cant:?}\n\n{}\n\
+             # a vertical force in CONTACT; here along the \
              normal of the plane of contact\n[load]\nnormal = {load:?}\n\n[drive]\nspeed = {speed:?}\ncreepage = {:?}\n\
              ramp = {:?}\n\n[mesh.zone]\nsize = {:?}\nwidth = 0.06\n\n[time]\nroll = {ROLL:?}\nfactor = 0.5\n",
             wheel - (half_gauge - gauge),
             outward * yaw,
             -outward * roll,
-            self.poisson,
-            self.mu,
+            self.common.sections(),
             rotation * radius / speed - 1.0,
             0.1 * ROLL / speed,
             self.spacing,
