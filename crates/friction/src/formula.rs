@@ -55,10 +55,9 @@ impl Formula {
         allowed: &[&str],
         names: &'static str,
     ) -> Result<Self, ExpressionError> {
-        let formula = FlatEx::parse(text).map_err(|error| ExpressionError::Syntax {
-            text: text.into(),
-            reason: error.to_string(),
-        })?;
+        let wrong = |reason: String| ExpressionError::Syntax { text: text.into(), reason };
+        let signed = signs_after_powers(text).map_err(|reason| wrong(reason.into()))?;
+        let formula = FlatEx::parse(&signed).map_err(|error| wrong(error.to_string()))?;
         let mut arguments = Vec::new();
         for name in formula.var_names() {
             let Some(argument) = allowed.iter().position(|other| other == name) else {
@@ -92,6 +91,53 @@ impl Formula {
     }
 }
 
+/// The formula with a zero before each minus whose operand is raised to a power: -x^2 is -(x^2), but exmex takes it for (-x)^2.
+fn signs_after_powers(text: &str) -> Result<String, &'static str> {
+    let mut signed = String::with_capacity(text.len());
+    // the last character that is no space; of 1e-6 the sign follows an e
+    let mut before = None;
+    for (at, c) in text.char_indices() {
+        let exponent = matches!(before, Some('e' | 'E')) && is_literal_before(text, at);
+        if c == '-' && !exponent && is_raised(&text[at + 1..]) {
+            match before {
+                None | Some('(' | ',' | '+') => signed.push('0'),
+                Some('-' | '*' | '/' | '^') => {
+                    return Err("a power behind two signs must stand in parentheses: 2*(-x^2)");
+                }
+                _ => {}
+            }
+        }
+        signed.push(c);
+        if !c.is_whitespace() {
+            before = Some(c);
+        }
+    }
+    Ok(signed)
+}
+
+/// Whether the text up to a place ends in a number without the digits of its exponent.
+fn is_literal_before(text: &str, at: usize) -> bool {
+    let word = text[..at].rsplit(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).next();
+    word.is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
+}
+
+/// Whether a text begins with an operand, a word or number with or without parentheses, that is raised to a power.
+fn is_raised(text: &str) -> bool {
+    let rest = text.trim_start();
+    let number = Numeral::is_literal(rest).map_or(0, str::len);
+    let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+    let mut rest = rest[number.max(word)..].trim_start();
+    if rest.starts_with('(') {
+        let mut depth = 0;
+        let end = rest.find(|c: char| {
+            depth += i32::from(c == '(') - i32::from(c == ')');
+            depth == 0
+        });
+        rest = end.map_or("", |end| rest[end + 1..].trim_start());
+    }
+    rest.starts_with('^')
+}
+
 /// Position of a name as a whole word, in characters from 1.
 fn position(text: &str, name: &str) -> usize {
     let word = |c: char| c.is_alphanumeric() || c == '_';
@@ -101,4 +147,39 @@ fn position(text: &str, name: &str) -> usize {
         !before.is_some_and(word) && !after.is_some_and(word)
     });
     found.map_or(1, |(at, _)| text[..at].chars().count() + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_minus_comes_after_the_power_behind_it_as_in_a_book() {
+        let at = |text: &str| Formula::parse(text, &["x"], "x").map(|formula| formula.value([3.0]));
+        for (text, expected) in [
+            ("-x^2", -9.0),
+            ("2 - x^2", -7.0),
+            ("2 + -x^2", -7.0),
+            ("max(-4, -x^2)", -4.0),
+            ("abs(-(x - 1)^2)", 4.0),
+            ("- sqrt(x + 1)^3", -8.0),
+            ("-2.5e-1^2", -0.0625),
+            ("1e-1^2 + 0*x", 0.01),
+            ("x^-1^2", f64::NAN),
+            ("2*-x^2", f64::NAN),
+            ("2*-x", -6.0),
+            ("x - -x", 6.0),
+            ("(-x)^2", 9.0),
+            ("-x", -3.0),
+        ] {
+            match at(text) {
+                Ok(value) => assert!((value - expected).abs() < 1e-12, "{text}: {value}"),
+                Err(error) => {
+                    assert!(expected.is_nan(), "{text}: {error}");
+                    assert!(error.to_string().contains("parentheses"), "{error}");
+                }
+            }
+        }
+    }
 }
