@@ -5,7 +5,7 @@
 //! steady rolling is refused by its name and line; digits and numbers of solvers and output change no solution, and are passed over.
 
 mod basic;
-mod common;
+mod material;
 mod reader;
 mod wheel_rail;
 

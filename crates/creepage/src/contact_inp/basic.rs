@@ -1,6 +1,6 @@
 //! Module 3: two bodies with the gap A x^2 + B y^2.
 
-use super::common::Common;
+use super::material::Material;
 use super::reader::{Digit, InpError, Reader};
 use crate::case::hertz::{gap_of_axes, of_gap};
 
@@ -11,7 +11,7 @@ const ROLL: f64 = 8.0;
 /// What a case may keep from those before it.
 #[derive(Debug, Default)]
 pub(super) struct Basic {
-    common: Common,
+    material: Material,
     /// Speed (m/s).
     speed: f64,
     /// A and B (1/m).
@@ -57,16 +57,16 @@ impl Basic {
         ] {
             digit.one_of(allowed)?;
         }
-        let back = self.common.read_solver(reader)?;
+        let back = self.material.read_solver(reader)?;
         let numbers = reader.numbers(&["FN", "CKSI or FX", "CETA", "CPHI"], 2)?;
         numbers.must_be_zero_at(4, "SPINXO")?;
         numbers.must_be_zero_at(5, "SPINYO")?;
-        self.common.read_friction(reader, law)?;
+        self.material.read_friction(reader, law)?;
         if influence.value == 2 {
             let rolling = reader.numbers(&["CHI", "DQ", "VELOC"], 0)?;
             rolling.must_be("CHI", 0.0, "half-spaces roll along x")?;
             self.speed = MM * rolling.get(2);
-            self.common.read_material(reader)?;
+            self.material.read_material(reader)?;
         }
         let [load, along, across, spin] = [0, 1, 2, 3].map(|at| numbers.get(at));
         if grid.value == 2 {
@@ -76,7 +76,7 @@ impl Basic {
             self.read_gap(reader)?;
         }
         // FX is given over the limit of friction
-        let force = (force.value == 1).then_some(along * self.common.mu * load);
+        let force = (force.value == 1).then_some(along * self.material.mu * load);
         let motion = Motion { load, force, slip: [along, across], spin: spin / MM };
         let text = self.case(&motion);
         Ok((back, text.map_err(|problem| InpError::new(numbers.line, problem))?))
@@ -106,7 +106,7 @@ impl Basic {
             self.spacing = MM * scale.min(dy);
             return Ok(());
         }
-        let modulus = self.common.modulus();
+        let modulus = self.material.modulus();
         self.gap = match kind.get(0) {
             -3.0 => gap_of_axes(load, [MM * one, MM * other], modulus),
             -2.0 => {
@@ -135,9 +135,9 @@ impl Basic {
 
     /// The case file; what is wrong, where there is none.
     fn case(&self, motion: &Motion) -> Result<String, String> {
-        let ([along, across], Common { mu, .. }) = (self.gap, &self.common);
+        let ([along, across], Material { mu, .. }) = (self.gap, &self.material);
         let &Motion { load, force, slip, spin } = motion;
-        let patch = of_gap(load, self.gap, self.common.modulus());
+        let patch = of_gap(load, self.gap, self.material.modulus());
         let given = [load, self.speed, *mu, along, across, self.spacing, patch.a];
         if !given.iter().all(|x| *x > 0.0) {
             return Err(
@@ -154,7 +154,7 @@ impl Basic {
              [load]\nnormal = {load:?}\n\n[drive]\nspeed = {:?}\n{drive}\nlateral_creepage = {:?}\nspin = {spin:?}\nramp = {:?}\n\n\
              [mesh.zone]\nsize = {:?}\nstart = {:?}\nlength = {:?}\nwidth = {:?}\n\n[time]\nroll = {roll:?}\nfactor = 0.5\n",
             0.5 / across,
-            self.common.sections(),
+            self.material.sections(),
             self.speed,
             slip[1],
             0.1 * roll / self.speed,

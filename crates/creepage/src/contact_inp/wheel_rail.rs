@@ -1,6 +1,6 @@
 //! Module 1: a wheel on a rail.
 
-use super::common::Common;
+use super::material::Material;
 use super::reader::{Digit, InpError, Reader};
 use crate::case::profile_at;
 use mesh::profile::{Profile, ProfileBody};
@@ -14,7 +14,7 @@ const MM: f64 = 1e-3;
 #[derive(Debug, Default)]
 pub(super) struct WheelRail {
     folder: PathBuf,
-    common: Common,
+    material: Material,
     /// Spacing (m).
     spacing: f64,
     /// Depth of the gauge point, half the gauge (m), and lean of the rail (rad).
@@ -57,10 +57,10 @@ impl WheelRail {
         ] {
             digit.one_of(allowed)?;
         }
-        let back = self.common.read_solver(reader)?;
-        self.common.read_friction(reader, law)?;
+        let back = self.material.read_solver(reader)?;
+        self.material.read_friction(reader, law)?;
         if influence.value == 2 {
-            self.common.read_material(reader)?;
+            self.material.read_material(reader)?;
         }
         if grid.value >= 2 {
             let grid = reader.numbers(&["DX", "DS", "DQREL", "A_SEP", "D_SEP", "D_COMB"], 2)?;
@@ -152,7 +152,7 @@ impl WheelRail {
             wheel - (half_gauge - gauge),
             outward * yaw,
             -outward * roll,
-            self.common.sections(),
+            self.material.sections(),
             rotation * radius / speed - 1.0,
             0.1 * ROLL / speed,
             self.spacing,

@@ -4,7 +4,7 @@ use super::reader::{Digit, InpError, Reader};
 
 /// What a case may keep of these from those before it.
 #[derive(Debug, Default)]
-pub(super) struct Common {
+pub(super) struct Material {
     read_before: bool,
     /// Coefficient of friction.
     pub(super) mu: f64,
@@ -13,7 +13,7 @@ pub(super) struct Common {
     shear: f64,
 }
 
-impl Common {
+impl Material {
     /// The digits of solver and output, and the numbers that follow of them; returns the digit RETURN.
     pub(super) fn read_solver(&mut self, reader: &mut Reader<'_>) -> Result<Digit, InpError> {
         let names = ["XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"];
