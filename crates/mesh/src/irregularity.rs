@@ -330,8 +330,8 @@ mod tests {
         let places = [[0.0, 0.3], [0.0, -0.1], [0.5, 0.3], [0.2, -0.1], [0.5, -0.1], [0.2, 0.3]];
         let grid = HeightGrid::new(&places.map(|[x, y]| [x, y, bilinear(x, y)])).unwrap();
         assert_eq!([grid.ends(0), grid.ends(1)], [[0.0, 0.5], [-0.1, 0.3]]);
-        for x in [-1.0, 0.0, 0.1, 0.2, 0.33, 0.5, 2.0] {
-            for y in [-1.0, -0.1, 0.07, 0.3, 9.0] {
+        for x in [-1.0_f64, 0.0, 0.1, 0.2, 0.33, 0.5, 2.0] {
+            for y in [-1.0_f64, -0.1, 0.07, 0.3, 9.0] {
                 let expected = bilinear(x.clamp(0.0, 0.5), y.clamp(-0.1, 0.3));
                 assert!((grid.at(x, y) - expected).abs() < 1e-17, "{x} {y}");
             }

@@ -352,6 +352,27 @@ section! {
 }
 
 section! {
+    /// Where a wheel with profiles touches the rail, and what it slips by its position.
+    #[derive(Copy)]
+    Position {
+        #[serde(deserialize_with = "null_is_nan")]
+        wheel_y: f64 = "y of the first point of contact on the profile of the wheel" ["m"],
+        #[serde(deserialize_with = "null_is_nan")]
+        rail_y: f64 = "y of the first point of contact on the profile of the rail" ["m"],
+        #[serde(deserialize_with = "null_is_nan")]
+        rolling_radius: f64 = "distance of the first point of contact from the axle" ["m"],
+        #[serde(deserialize_with = "null_is_nan")]
+        plane_angle: f64 = "slope of the plane of contact, positive where it rises in +y" ["rad"],
+        #[serde(deserialize_with = "null_is_nan")]
+        longitudinal: f64 = "longitudinal creepage by the position" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
+        lateral: f64 = "lateral creepage by the position" ["1"],
+        #[serde(deserialize_with = "null_is_nan")]
+        spin: f64 = "spin by the position" ["1/m"],
+    }
+}
+
+section! {
     /// The summary of a run at its end; numbers in SI units unless a field says otherwise.
     Summary {
         name: String = "name of the case",
@@ -405,6 +426,8 @@ section! {
         spectral: Option<Spectral> = "half-spaces",
         #[serde(skip_serializing_if = "Option::is_none")]
         mesh_window: Option<MeshWindow> = "a fine zone that follows the contact",
+        #[serde(skip_serializing_if = "Option::is_none")]
+        position: Option<Position> = "the position of a wheel with profiles",
         /// Samples of a friction law that the user supplied as a function:
         #[serde(skip_serializing_if = "Option::is_none")]
         friction_law: Option<Vec<[f64; 2]>> = "pairs of slip speed (m/s) and coefficient of friction",
@@ -475,7 +498,7 @@ fn null_is_nan<'de, D: Deserializer<'de>>(from: D) -> Result<f64, D::Error> {
 /// A section of the summary: its key, empty for the keys outside sections; its keys; whether a summary has it.
 type Section = (&'static str, &'static [Quantity], fn(&Summary) -> bool);
 
-const SECTIONS: [Section; 15] = [
+const SECTIONS: [Section; 16] = [
     ("", Summary::KEYS, |_| true),
     ("energy", Energy::KEYS, |_| true),
     ("contact", Contact::KEYS, |_| true),
@@ -491,6 +514,7 @@ const SECTIONS: [Section; 15] = [
     ("implicit", Implicit::KEYS, |summary| summary.implicit.is_some()),
     ("spectral", Spectral::KEYS, |summary| summary.spectral.is_some()),
     ("mesh_window", MeshWindow::KEYS, |summary| summary.mesh_window.is_some()),
+    ("position", Position::KEYS, |summary| summary.position.is_some()),
 ];
 
 /// The number at `key` of a section, empty for those outside sections; `None` for `stages` and for what is no number.

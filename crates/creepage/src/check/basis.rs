@@ -9,7 +9,7 @@ use friction::{Parameters, all_parameters};
 use output::files::input::{self, Kind};
 use output::layout::{HISTORY, file};
 use output::read_summary;
-use output::summary::Summary;
+use output::summary::{Position, Summary};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -209,10 +209,16 @@ impl Basis {
     /// Derives `slip_speed` from speed and creepage and `slip_threshold` from `slip_speed`, where they are not
     /// known.
     pub fn complete(&mut self) {
-        let spin = self.number("drive.spin").zip(self.scale("half_length"));
+        // the mean creepage holds what the position of a wheel adds to it
+        let position = self.summary.as_ref().and_then(|summary| summary.position);
+        let driven = |key, more: fn(Position) -> f64| {
+            let parts = [self.number(key), position.map(more)];
+            parts.iter().flatten().copied().reduce(|sum, part| sum + part)
+        };
+        let spin = driven("drive.spin", |at| at.spin).zip(self.scale("half_length"));
         let parts = [
             self.scale("creepage"),
-            self.number("drive.lateral_creepage"),
+            driven("drive.lateral_creepage", |at| at.lateral),
             spin.map(|(spin, a)| spin * a),
         ];
         let slips = parts.iter().flatten().any(|part| *part != 0.0);
@@ -402,5 +408,9 @@ mod tests {
         assert!(near(slip("creepage = 0.0\nspin = 0.5"), 0.1));
         assert!(near(slip("creepage = 1e-9"), 4e-4));
         assert_eq!(slip("creepage = 0.0"), None);
+        // a wheel with profiles slips by its position, too
+        let position = r#"{ "position": { "lateral": 1e-3, "spin": 0.8 } }"#;
+        std::fs::write(folder.path().join("summary.json"), position).unwrap();
+        assert!(near(slip("creepage = 0.0\nlateral_creepage = 2e-3\nspin = 0.0"), 0.2));
     }
 }

@@ -233,6 +233,7 @@ fn conclude(
         let (travel, energy) = (simulation.travel().x, simulation.ledger().moved);
         summary.mesh_window = Some(MeshWindow { travel, energy });
     }
+    summary.position = crate::scenario::position(case)?.map(|position| position.result());
     close(basis, summary, ending.status, held, log)
 }
 

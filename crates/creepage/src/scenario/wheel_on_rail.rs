@@ -6,6 +6,7 @@
 
 use halfspace::{Gap, HalfSpaces, Patch, PressError, Pressed, press};
 use mesh::profile::{ContactPoint, Overlap, ProfileError, RigidSlip, WheelOnRail};
+use output::summary::Position;
 use serde::Serialize;
 use thiserror::Error;
 
@@ -68,6 +69,20 @@ impl PositionReport {
             longitudinal: motion.longitudinal,
             lateral: motion.lateral,
             spin: motion.spin,
+        }
+    }
+
+    /// What a summary keeps of it.
+    pub(crate) fn result(&self) -> Position {
+        let [wheel_y, rail_y] = self.first_y;
+        Position {
+            wheel_y,
+            rail_y,
+            rolling_radius: self.rolling_radius,
+            plane_angle: self.plane_angle,
+            longitudinal: self.longitudinal,
+            lateral: self.lateral,
+            spin: self.spin,
         }
     }
 

@@ -407,6 +407,20 @@ PointWindow = TypedDict(
     },
 )
 
+# Where a wheel with profiles touches the rail, and what it slips by its position.
+Position = TypedDict(
+    "Position",
+    {
+        "lateral": float,  # lateral creepage by the position (1)
+        "longitudinal": float,  # longitudinal creepage by the position (1)
+        "plane_angle": float,  # slope of the plane of contact, positive where it rises in +y (rad)
+        "rail_y": float,  # y of the first point of contact on the profile of the rail (m)
+        "rolling_radius": float,  # distance of the first point of contact from the axle (m)
+        "spin": float,  # spin by the position (1/m)
+        "wheel_y": float,  # y of the first point of contact on the profile of the wheel (m)
+    },
+)
+
 # How the preload was found.
 Preload = TypedDict(
     "Preload",
@@ -602,6 +616,7 @@ Summary = TypedDict(
         "nodes": int,  # nodes of both bodies (1)
         "numbers": NotRequired[Numbers | None],  # dimensionless numbers
         "peak_rss_mb": float,  # largest resident memory of the process (MB)
+        "position": NotRequired[Position | None],  # the position of a wheel with profiles
         "preload": Preload | None,  # the preload; null without one
         "rolling_radius": NotRequired[RollingRadius | None],  # rolling radii of the disk
         "sha256": NotRequired[str | None],  # checksum of the summary without this key

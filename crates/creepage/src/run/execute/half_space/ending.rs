@@ -12,6 +12,7 @@ use crate::run::options::RunOptions;
 use crate::run::record::RecordBasis;
 use crate::run::summary::{contact_means, half_space, window};
 use crate::scenario::memory::peak_rss_mb;
+use crate::scenario::wheel_on_rail::PositionReport;
 use crate::scenario::{HalfSpaceModel, RollingRadius};
 use dynamics::Energies;
 use output::summary::{Checks, Energy, Files, Spectral, Status, Summary};
@@ -108,6 +109,7 @@ fn summary(case: &Case, options: &RunOptions, model: &HalfSpaceModel, ended: &En
         half_space: Some(half_space(&hertz(case))),
         spectral: Some(spectral),
         numbers: Some(model.numbers.result()),
+        position: model.position.as_ref().map(PositionReport::result),
         window: Some(window(case, means, ended.status)),
         checks: Some(Checks {
             cone_excess: Some(means.worst_cone),
