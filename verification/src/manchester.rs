@@ -6,9 +6,9 @@
 //! at 10.50 and 25.99 mm, not at 10.23 and 26.03 mm, which puts 60E1 up to 0.038 mm from its points. The problem takes the arcs of the
 //! benchmark, and tells what 60E1 changes.
 //!
-//! On the right rail at case 11 the wheel touches two places 10 mm apart. CONTACT lets places between 4 and 8 mm apart (edge to edge;
-//! `D_COMB`, `D_SEP`) deform one another by a part of what half-spaces do, ((8 - d)/4)^0.8 (`combine_cpatches`), which is little
-//! here. The case is told apart, also with places that do not deform one another.
+//! On the right rail at case 11 the wheel touches in two patches, whose middles are 10 mm and whose edges d = 7.7 mm apart. CONTACT
+//! lets patches with d from 4 to 8 mm (`D_COMB`, `D_SEP`) deform one another by a part of what half-spaces do, ((8 - d)/4)^0.8
+//! (`combine_cpatches`), here 0.13. The case is reported separately, also with patches that do not deform one another.
 
 mod case;
 
@@ -22,7 +22,7 @@ use rayon::prelude::*;
 const SOURCE: &str = "CONTACT (Vollebregt), mbench_a22, elements of 0.2 mm";
 /// Points on the mean diameter of the patch, and at least on its shorter axis.
 const GRIDS: [[f64; 2]; 2] = [[10.0, 4.5], [20.0, 9.0]];
-/// Points of the case whose two places share the load.
+/// The case whose load is shared by two patches.
 const SHARED: (f64, u32) = (1.0, 11);
 const MU: f64 = 0.3;
 /// From this case on the right wheel touches with its flange, in a patch twenty times as long as wide, which takes some ten minutes.
@@ -30,9 +30,9 @@ const FLANGE: u32 = 15;
 /// Cases whose contact lies nearer to the top of the rail than this (mm) are also done on 60E1.
 const TREAD: f64 = 25.0;
 /// What 60E1 may change of the first four quantities: where the arcs join at other places, the rail's slope at a place differs by up
-/// to 2.6 mrad, (1/80 - 1/300) of the 0.27 mm between the joints. The point of equal slopes lies by this over the difference of the
-/// curvatures of rail and wheel, 12.5 - 7.2 1/m, farther: 0.5 mm, over which the wheel's slope changes by 3.6 mrad.
-const STANDARD: [f64; 4] = [0.5, 3.6e-3, 0.02, 0.02];
+/// to 2.6 mrad (y = -22 mm). The point of equal slopes lies by this over the difference of the curvatures of rail and wheel,
+/// 12.7 - 7.3 1/m, farther: 0.5 mm, over which the wheel's slope changes by 3.5 mrad.
+const STANDARD: [f64; 4] = [0.5, 3.5e-3, 0.02, 0.02];
 
 /// A quantity: its name, column, the limit that is asked of it, and what its error is relative to.
 struct Quantity {
@@ -113,7 +113,7 @@ pub(crate) fn run(size: Size) -> Outcome {
     }
     for case in rolled(&shared, benchmark_rail)? {
         for quantity in &QUANTITIES {
-            let what = format!("right, case 11, two places: {}", quantity.name);
+            let what = format!("right, case 11, two patches: {}", quantity.name);
             rows.push(row(quantity, &case, what, quantity.limit));
         }
     }
@@ -150,7 +150,7 @@ fn rolled(cases: &[BenchmarkCase], rail: fn() -> Profile) -> Result<Vec<Found>, 
         .collect()
 }
 
-/// Approach and pressure of a case with two places that do not deform one another, extrapolated.
+/// Approach and pressure of a case with two patches that do not deform one another, extrapolated.
 fn without_influence(case: &BenchmarkCase) -> Result<[Row; 2], Cause> {
     let grids = GRIDS.map(|across| case.without_influence(across, benchmark_rail()));
     let [coarse, fine] = grids;
@@ -159,7 +159,7 @@ fn without_influence(case: &BenchmarkCase) -> Result<[Row; 2], Cause> {
     Ok([(&QUANTITIES[2], 0), (&QUANTITIES[3], 1)].map(|(quantity, at)| {
         let samples = grids.iter().map(|(h, values)| (*h, values[at]));
         found[quantity.column] = Convergence::by_theory(samples, quantity.order).extrapolated();
-        let what = format!("right, case 11, places apart: {}", quantity.name);
+        let what = format!("right, case 11, patches apart: {}", quantity.name);
         row(quantity, &(*case, found), what, quantity.limit)
     }))
 }

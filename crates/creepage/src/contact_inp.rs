@@ -40,16 +40,14 @@ pub fn inp_cases(
     while wanted != Some(number) && (module > 0 || !reader.is_at_end()) {
         if module == 0 {
             let group = reader.numbers(&["MODULE"], 2)?;
-            module = group.get(0) as u32;
-            if module == 0 {
+            if group.get(0) == 3.0 {
+                module = 3;
+            } else if group.get(0) == 0.0 {
                 break;
-            }
-            if module != 3 {
-                group.must_be(
-                    "MODULE",
-                    1.0,
-                    "only 1, a wheel on a rail, and 3, two bodies, are read",
-                )?;
+            } else {
+                let why = "only 1, a wheel on a rail, and 3, two bodies, are read";
+                group.must_be("MODULE", 1.0, why)?;
+                module = 1;
             }
         }
         number += 1;

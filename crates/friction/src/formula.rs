@@ -75,7 +75,7 @@ impl Formula {
     }
 
     /// Whether it uses the name at this place among those allowed.
-    pub(crate) fn uses(&self, name: usize) -> bool {
+    pub fn uses(&self, name: usize) -> bool {
         self.arguments.contains(&name)
     }
 
@@ -94,16 +94,16 @@ impl Formula {
 /// The formula with a zero before each minus whose operand is raised to a power: -x^2 is -(x^2), but exmex takes it for (-x)^2.
 fn signs_after_powers(text: &str) -> Result<String, &'static str> {
     let mut signed = String::with_capacity(text.len());
-    // the last character that is no space; of 1e-6 the sign follows an e
+    // the last character that is no space
     let mut before = None;
     for (at, c) in text.char_indices() {
-        let exponent = matches!(before, Some('e' | 'E')) && is_literal_before(text, at);
-        if c == '-' && !exponent && is_raised(&text[at + 1..]) {
+        if c == '-' && is_raised(&text[at + 1..]) {
             match before {
                 None | Some('(' | ',' | '+') => signed.push('0'),
                 Some('-' | '*' | '/' | '^') => {
                     return Err("a power behind two signs must stand in parentheses: 2*(-x^2)");
                 }
+                // a difference, or the exponent of 1e-6
                 _ => {}
             }
         }
@@ -115,22 +115,21 @@ fn signs_after_powers(text: &str) -> Result<String, &'static str> {
     Ok(signed)
 }
 
-/// Whether the text up to a place ends in a number without the digits of its exponent.
-fn is_literal_before(text: &str, at: usize) -> bool {
-    let word = text[..at].rsplit(|c: char| !(c.is_ascii_alphanumeric() || c == '.')).next();
-    word.is_some_and(|word| word.starts_with(|c: char| c.is_ascii_digit() || c == '.'))
-}
-
-/// Whether a text begins with an operand, a word or number with or without parentheses, that is raised to a power.
+/// Whether a text begins with an operand that is raised to a power: signs, words and a number, then parentheses or none.
 fn is_raised(text: &str) -> bool {
-    let rest = text.trim_start();
-    let number = Numeral::is_literal(rest).map_or(0, str::len);
-    let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
-    let mut rest = rest[number.max(word)..].trim_start();
-    if rest.starts_with('(') {
+    let mut rest = text.trim_start_matches(|c: char| c.is_whitespace() || "+-".contains(c));
+    loop {
+        let number = Numeral::is_literal(rest).map_or(0, str::len);
+        let word = rest.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(rest.len());
+        if number.max(word) == 0 {
+            break;
+        }
+        rest = rest[number.max(word)..].trim_start();
+    }
+    if rest.starts_with(['(', '{']) {
         let mut depth = 0;
         let end = rest.find(|c: char| {
-            depth += i32::from(c == '(') - i32::from(c == ')');
+            depth += i32::from("({".contains(c)) - i32::from(")}".contains(c));
             depth == 0
         });
         rest = end.map_or("", |end| rest[end + 1..].trim_start());
@@ -168,6 +167,9 @@ mod tests {
             ("1e-1^2 + 0*x", 0.01),
             ("x^-1^2", f64::NAN),
             ("2*-x^2", f64::NAN),
+            ("-+x^2", -9.0),
+            ("-sqrt x^2", -3.0),
+            ("-{x}^2", -9.0),
             ("2*-x", -6.0),
             ("x - -x", 6.0),
             ("(-x)^2", 9.0),

@@ -110,7 +110,7 @@ pub enum HeightError {
     },
     /// Points that do not fill a grid.
     #[error(
-        "{points} points lie at {along} places x and {across} places y: a grid has one at each of at least two and two"
+        "{points} points have {along} different x and {across} different y: a grid has one point at each x and y, two or more of both"
     )]
     Grid {
         /// Their number.
@@ -235,17 +235,20 @@ impl HeightGrid {
             all
         });
         let [along, across] = [0, 1].map(|axis| places[axis].len());
-        let mut heights = vec![f64::NAN; along * across];
+        let none = HeightError::Grid { points: points.len(), along, across };
+        // scattered points would need the square of their number
+        if along < 2 || across < 2 || points.len() != along * across {
+            return Err(none);
+        }
+        let mut heights = vec![f64::NAN; points.len()];
         for &[x, y, height] in points {
             let [i, j] =
                 [(0, x), (1, y)].map(|(axis, at)| places[axis].partition_point(|p| *p < at));
             heights[i * across + j] = height;
         }
-        let filled = points.len() == heights.len() && heights.iter().all(|z| z.is_finite());
-        if along < 2 || across < 2 || !filled {
-            return Err(HeightError::Grid { points: points.len(), along, across });
-        }
-        Ok(Self { places, heights })
+        // a place that is given twice leaves another one without height
+        let filled = heights.iter().all(|z| z.is_finite());
+        filled.then_some(Self { places, heights }).ok_or(none)
     }
 
     /// The first and the last place along (0) or across (1) the surface.
@@ -355,10 +358,10 @@ mod tests {
         let mut high = square;
         high[2][2] = 0.1;
         for (points, number, words) in [
-            (&[][..], 1, "0 points lie at 0 places x and 0 places y"),
-            (&square[..2], 1, "2 points lie at 1 places x and 2 places y"),
-            (&square[..3], 1, "3 points lie at 2 places x and 2 places y"),
-            (&twice, 1, "4 points lie at 2 places x and 2 places y"),
+            (&[][..], 1, "0 points have 0 different x and 0 different y"),
+            (&square[..2], 1, "2 points have 1 different x and 2 different y"),
+            (&square[..3], 1, "3 points have 2 different x and 2 different y"),
+            (&twice, 1, "4 points have 2 different x and 2 different y"),
             (&high, 3, "in mm or um?"),
         ] {
             let error = HeightGrid::new(points).unwrap_err();

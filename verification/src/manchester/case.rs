@@ -21,9 +21,9 @@ const HALF_WHEELSET: f64 = 0.5 * 1.360 + 0.070;
 /// Joints of the arcs of the benchmark's rail (m), by circles through its points (MBench_UIC60_v3.prr, CONTACT), which lie on
 /// them within 0.1 um: they are not those of the standard.
 pub(super) const JOINTS: [f64; 2] = [10.500e-3, 25.988e-3];
-/// y of its top by the same circles (m), from which its points are counted nearly.
+/// y of its highest point by the same circles (m): the file's origin, from which CONTACT counts, is not quite there.
 const TOP: f64 = 5.96e-6;
-/// A place on the gauge side of which one, and on the other side another place of contact lies in the plane of contact (m).
+/// y in the plane of contact between the two patches (m).
 const BETWEEN: f64 = 5e-3;
 /// Changes of the normal force within which vertical equilibrium is reached, and rounds to it.
 const BALANCED: f64 = 1e-3;
@@ -187,9 +187,12 @@ impl BenchmarkCase {
             let share = 0.5 * (least + most);
             let first = press(&bodies, &one, share)?;
             let second = press(&bodies, &other, normal - share)?;
+            if first.cut || second.cut {
+                return Err("the grid is smaller than a patch".into());
+            }
             if most - least < BALANCED {
-                let peak = Patch::Field(first.field).peak_pressure();
-                return Ok((h, [1e3 * first.approach, 1e-6 * peak]));
+                let peaks = [first.field, second.field].map(|f| Patch::Field(f).peak_pressure());
+                return Ok((h, [1e3 * first.approach, 1e-6 * peaks[0].max(peaks[1])]));
             }
             if first.approach < second.approach { least = share } else { most = share }
         }

@@ -68,6 +68,15 @@ impl SurfaceHeights {
             Self::Grid(points) => Ok(Arc::new(over.grid(points)?)),
         }
     }
+
+    /// Whether they depend on y.
+    pub(crate) fn varies_across(&self, over: Coordinate) -> bool {
+        match self {
+            Self::Formula(text) => Written::parse(text, over).is_ok_and(|it| it.formula.uses(1)),
+            Self::Grid(_) => true,
+            Self::File(_) | Self::Points(_) => false,
+        }
+    }
 }
 
 impl Coordinate {

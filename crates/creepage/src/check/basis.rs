@@ -209,11 +209,11 @@ impl Basis {
     /// Derives `slip_speed` from speed and creepage and `slip_threshold` from `slip_speed`, where they are not
     /// known.
     pub fn complete(&mut self) {
-        // the mean creepage holds what the position of a wheel adds to it
+        // what the position of a wheel adds along x is part of a run's mean creepage
         let position = self.summary.as_ref().and_then(|summary| summary.position);
         let driven = |key, more: fn(Position) -> f64| {
             let parts = [self.number(key), position.map(more)];
-            parts.iter().flatten().copied().reduce(|sum, part| sum + part)
+            parts.iter().flatten().copied().filter(|x| x.is_finite()).reduce(|sum, part| sum + part)
         };
         let spin = driven("drive.spin", |at| at.spin).zip(self.scale("half_length"));
         let parts = [

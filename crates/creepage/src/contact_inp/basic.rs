@@ -14,12 +14,17 @@ pub(super) struct Basic {
     material: Material,
     /// Speed (m/s).
     speed: f64,
-    /// A and B (1/m).
-    gap: [f64; 2],
-    /// Whether they are given by B1 to B6.
-    in_full: bool,
-    /// Spacing (m).
-    spacing: f64,
+    grid: Option<Grid>,
+}
+
+/// What gives the gap and the spacing, as the file has it (mm).
+#[derive(Clone, Copy, Debug)]
+enum Grid {
+    /// Hertz's contact under the force of the case, with IPOTCN, points along and across, A1 and B1, A1 and the ratio of the half
+    /// axes, or these, and the size over that of the patch.
+    Hertz { kind: f64, points: [f64; 2], shape: [f64; 2], scale: f64 },
+    /// Spacing, and the gap's B1 and B3.
+    Full { spacing: f64, gap: [f64; 2] },
 }
 
 /// What moves the bodies.
@@ -70,10 +75,10 @@ impl Basic {
         }
         let [load, along, across, spin] = [0, 1, 2, 3].map(|at| numbers.get(at));
         if grid.value == 2 {
-            self.read_grid(reader, load)?;
+            self.read_grid(reader)?;
         }
-        if gap.value == 2 && self.in_full {
-            self.read_gap(reader)?;
+        if let (2, Some(Grid::Full { gap, .. })) = (gap.value, &mut self.grid) {
+            *gap = read_gap(reader)?;
         }
         // FX is given over the limit of friction
         let force = (force.value == 1).then_some(along * self.material.mu * load);
@@ -82,8 +87,7 @@ impl Basic {
         Ok((back, text.map_err(|problem| InpError::new(numbers.line, problem))?))
     }
 
-    /// The grid, and where Hertz's contact gives it, the gap. The spacing is the finer of both.
-    fn read_grid(&mut self, reader: &mut Reader<'_>, load: f64) -> Result<(), InpError> {
+    fn read_grid(&mut self, reader: &mut Reader<'_>) -> Result<(), InpError> {
         let kind = reader.numbers(&["IPOTCN"], 0)?;
         let names: &[_] = match kind.get(0) {
             -3.0 => &["MX", "MY", "AA", "BB", "SCALE"],
@@ -97,17 +101,32 @@ impl Basic {
             }
         };
         let grid = reader.numbers(names, 0)?;
-        let [columns, rows, one, other, scale, dy] = [0, 1, 2, 3, 4, 5].map(|at| grid.get(at));
+        let [columns, rows, one, other] = [0, 1, 2, 3].map(|at| grid.get(at));
         if rows < 2.0 {
             return Err(InpError::new(grid.line, "MY = 1: contact along a line is not read"));
         }
-        self.in_full = kind.get(0) > 0.0;
-        if self.in_full {
-            self.spacing = MM * scale.min(dy);
-            return Ok(());
-        }
+        self.grid = Some(if kind.get(0) > 0.0 {
+            let gap = match self.grid {
+                Some(Grid::Full { gap, .. }) => gap,
+                _ => [0.0; 2],
+            };
+            Grid::Full { spacing: grid.get(4).min(grid.get(5)), gap }
+        } else {
+            let (points, shape, scale) = ([columns, rows], [one, other], grid.get(4));
+            Grid::Hertz { kind: kind.get(0), points, shape, scale }
+        });
+        Ok(())
+    }
+
+    /// A and B of the gap (1/m), and the finer of the two spacings (m), under the force `load` (N).
+    fn gap(&self, load: f64) -> ([f64; 2], f64) {
         let modulus = self.material.modulus();
-        self.gap = match kind.get(0) {
+        let (kind, points, [one, other], scale) = match self.grid {
+            Some(Grid::Hertz { kind, points, shape, scale }) => (kind, points, shape, scale),
+            Some(Grid::Full { spacing, gap }) => return (gap.map(|b| b / MM), MM * spacing),
+            None => return ([0.0; 2], 0.0),
+        };
+        let gap = match kind {
             -3.0 => gap_of_axes(load, [MM * one, MM * other], modulus),
             -2.0 => {
                 // the ratio of the axes alone gives that of the coefficients
@@ -116,29 +135,16 @@ impl Basic {
             }
             _ => [one / MM, other / MM],
         };
-        let patch = of_gap(load, self.gap, modulus);
-        self.spacing = 2.0 * scale * (patch.a / columns).min(patch.b / rows);
-        Ok(())
-    }
-
-    fn read_gap(&mut self, reader: &mut Reader<'_>) -> Result<(), InpError> {
-        let form = reader.numbers(&["IBASE", "IPLAN"], 0)?;
-        form.must_be("IBASE", 1.0, "only a quadratic gap is read")?;
-        form.must_be("IPLAN", 1.0, "half-spaces touch wherever the gap closes")?;
-        let gap = reader.numbers(&["B1", "B2", "B3", "B4", "B5", "B6"], 0)?;
-        for name in ["B2", "B4", "B5", "B6"] {
-            gap.must_be(name, 0.0, "the gap must be B1 x^2 + B3 y^2")?;
-        }
-        self.gap = [gap.get(0) / MM, gap.get(2) / MM];
-        Ok(())
+        let patch = of_gap(load, gap, modulus);
+        (gap, 2.0 * scale * (patch.a / points[0]).min(patch.b / points[1]))
     }
 
     /// The case file; what is wrong, where there is none.
     fn case(&self, motion: &Motion) -> Result<String, String> {
-        let ([along, across], Material { mu, .. }) = (self.gap, &self.material);
         let &Motion { load, force, slip, spin } = motion;
-        let patch = of_gap(load, self.gap, self.material.modulus());
-        let given = [load, self.speed, *mu, along, across, self.spacing, patch.a];
+        let (gap @ [along, across], spacing) = self.gap(load);
+        let patch = of_gap(load, gap, self.material.modulus());
+        let given = [load, self.speed, self.material.mu, along, across, spacing, patch.a];
         if !given.iter().all(|x| *x > 0.0) {
             return Err(
                 "FN, VELOC, FSTAT, GG, the grid and both curvatures must be above zero".into()
@@ -146,7 +152,7 @@ impl Basic {
         }
         let (radius, roll) = (0.5 / along, ROLL * patch.a);
         // the upper body drives where it slips back
-        let drive = force.map_or(format!("creepage = {:?}", -slip[0]), |force| {
+        let drive = force.map_or(format!("creepage = {:?}", 0.0 - slip[0]), |force| {
             format!("torque = {:?}", force * radius)
         });
         Ok(format!(
@@ -158,10 +164,22 @@ impl Basic {
             self.speed,
             slip[1],
             0.1 * roll / self.speed,
-            self.spacing,
+            spacing,
             -2.0 * patch.a,
             roll + 4.0 * patch.a,
             4.0 * patch.b,
         ))
     }
+}
+
+/// B1 and B3 (1/mm) of the gap, which must have no other part.
+fn read_gap(reader: &mut Reader<'_>) -> Result<[f64; 2], InpError> {
+    let form = reader.numbers(&["IBASE", "IPLAN"], 0)?;
+    form.must_be("IBASE", 1.0, "only a quadratic gap is read")?;
+    form.must_be("IPLAN", 1.0, "half-spaces touch wherever the gap closes")?;
+    let gap = reader.numbers(&["B1", "B2", "B3", "B4", "B5", "B6"], 0)?;
+    for name in ["B2", "B4", "B5", "B6"] {
+        gap.must_be(name, 0.0, "the gap must be B1 x^2 + B3 y^2")?;
+    }
+    Ok([gap.get(0), gap.get(2)])
 }

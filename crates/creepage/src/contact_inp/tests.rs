@@ -149,6 +149,10 @@ fn two_bodies_have_the_patch_that_contact_prints_and_its_creepage() {
     assert_eq!(value(&spun, "drive.lateral_creepage"), -6.25e-4);
     near(value(&spun, "drive.spin"), 0.625);
     near(value(&spun, "mesh.zone.size"), 0.2e-3);
+    // half axes that are given stay under another force
+    let text = BASIC.replacen("   -2 ", "   -3 ", 1).replacen("0.0008     0.500", "8.0 4.0", 1);
+    let text = text.replacen(" 106700.      0.0004", " 50000. 0.0004", 1);
+    half_axes(&basic(&text, 2).unwrap()).iter().zip([8.0, 4.0]).for_each(|(a, b)| near(*a, b));
 }
 
 #[test]

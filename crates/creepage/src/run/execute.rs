@@ -125,6 +125,7 @@ fn run_in_pool(
     }
     let recorder = Recorder::new(case, &model, &simulation, facts.radius.effective, files, &basis)?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
+    let position = model.position;
     drop(model); // the time loop has what it needs
 
     let mut rolling = TimeLoop::new(case, &facts, &held, simulation, recorder, wall);
@@ -152,6 +153,7 @@ fn run_in_pool(
         means,
         elements,
         nodes,
+        position,
         threads: options.threads(),
         wall: before + wall.elapsed(),
         rolling,
@@ -233,7 +235,6 @@ fn conclude(
         let (travel, energy) = (simulation.travel().x, simulation.ledger().moved);
         summary.mesh_window = Some(MeshWindow { travel, energy });
     }
-    summary.position = crate::scenario::position(case)?.map(|position| position.result());
     close(basis, summary, ending.status, held, log)
 }
 

@@ -7,6 +7,7 @@ use crate::case::schema::{Case, DriveMode, Enforcement};
 use crate::run::means::Means;
 use crate::scenario::memory::peak_rss_mb;
 use crate::scenario::remedy::Remedy;
+use crate::scenario::wheel_on_rail::PositionReport;
 use crate::scenario::{InitialState, Model, PreloadError, RollingRadius};
 use contact::Rows;
 use dynamics::{Energies, Simulation};
@@ -29,6 +30,8 @@ pub(crate) struct Ending {
     pub(crate) means: Means,
     pub(crate) elements: usize,
     pub(crate) nodes: usize,
+    /// Where a wheel with profiles touches the rail.
+    pub(crate) position: Option<PositionReport>,
     pub(crate) threads: usize,
     /// Wall time of the whole run, of rolling, and of output on the time loop's side.
     pub(crate) wall: Duration,
@@ -107,6 +110,7 @@ pub(crate) fn summary(
         t_end: simulation.time(),
         elements: ending.elements as u64,
         nodes: ending.nodes as u64,
+        position: ending.position.as_ref().map(PositionReport::result),
         threads: ending.threads as u64,
         wall_s: seconds(ending.wall),
         element_steps_per_s: elements * steps as f64 / seconds(ending.rolling),

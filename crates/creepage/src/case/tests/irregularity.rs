@@ -50,7 +50,7 @@ fn heights_in_a_file_are_read_in_the_units_of_its_heading_and_kept_in_the_case()
     assert_eq!(again, found);
     for (text, words) in [
         ("-0.1,-1,0\n-0.1,1,0\n0.2,-1,0\n0.2,1,1\n", &["rail.csv:4:", "mm or um?"][..]),
-        ("-0.1,-1,0\n-0.1,1,0\n0.2,-1,0\n", &["rail.csv:1:", "3 points lie at 2 places x"]),
+        ("-0.1,-1,0\n-0.1,1,0\n0.2,-1,0\n", &["rail.csv:1:", "3 points have 2 different x"]),
         ("x,y,z\n-0.1,-1,0\n-0.1,1\n", &["rail.csv:3:", "is not a place x and a place y"]),
     ] {
         fs::write(&rail, text).unwrap();
@@ -80,16 +80,22 @@ fn a_formula_has_the_names_of_its_coordinate_and_repeats_after_a_turn() {
 
 #[test]
 fn heights_that_a_half_model_or_a_slice_cannot_have_are_refused() {
-    let dent =
-        |place: &str| format!("bar.surface={{ formula = \"-1e-5*exp(-({place}/1e-2)^2)\" }}");
-    for (place, half, slice) in [("x", true, true), ("y", true, false), ("(y-1e-3)", false, false)]
+    let slice = [
+        "mesh.plane_strain=true",
+        "bar.crown_radius=flat",
+        "mesh.zone.width=1e-3",
+        "disk.width=1e-3",
+        "bar.width=1e-3",
+    ];
+    let models = [&["mesh.symmetry=half"][..], &slice];
+    for (place, fits) in [("x", [true, true]), ("y", [true, false]), ("(y - 5e-4)", [false, false])]
     {
-        let given = dent(place);
-        assert!(set(&[&given]).is_ok(), "{place}");
-        for (model, fits) in [("mesh.symmetry=half", half), ("mesh.plane_strain=true", slice)] {
-            let found = set(&[&given, model, "bar.crown_radius=flat"]);
+        let dent = format!("bar.surface={{ formula = \"-1e-5*exp(-({place}/1e-3)^2)\" }}");
+        assert!(set(&[&dent]).is_ok(), "{place}");
+        for (model, fits) in models.into_iter().zip(fits) {
+            let found = set(&[&[dent.as_str()], model].concat());
             if fits {
-                assert!(found.is_ok(), "{place} {model}");
+                found.unwrap();
             } else {
                 refused(found, &["bar.surface gives", "takes for the same"]);
             }
@@ -114,14 +120,14 @@ fn heights_that_are_none_are_refused_by_their_key() {
         ("bar.surface={ points = [[-1, 0], [0.05, 0]] }", &["the patch needs them from"]),
         ("disk.out_of_round={ points = [[0, 0], [360, 0]] }", &["degrees"]),
         ("bar.surface={ points = [[0, 0, 0]] }", &["must be", "formula"]),
-        ("bar.surface={ formula = \"0.2*y^2\" }", &["0.00018 m"]),
+        ("bar.surface={ formula = \"200*y^2\" }", &["heights must be finite and at most"]),
         (
             "bar.surface={ grid = [[0, 0, 0], [1, 0, 0], [0, 1, 0]] }",
-            &["2 places x and 2 places y"],
+            &["2 different x and 2 different y"],
         ),
         (
             "bar.surface={ grid = [[-1, 0, 0], [1, 0, 0], [-1, 1, 0], [1, 1, 0]] }",
-            &["patch is", "wide"],
+            &["y = 0 to 1 m", "the patch needs them"],
         ),
         (
             "bar.surface={ grid = [[0, -1, 0], [1, -1, 0], [0, 1, 0], [1, 1, 0]] }",

@@ -8,9 +8,11 @@ use crate::case::value::{digits, number};
 use mesh::{HeightGrid, HeightTable, Heights};
 use std::f64::consts::PI;
 
-/// Places along and, on either side of the middle, across at which a formula is tried.
+/// Places along at which heights are tried, and most places across on either side of the middle.
 const TRIALS: u32 = 4000;
-const TRIALS_ACROSS: i32 = 4;
+const TRIALS_ACROSS: f64 = 100.0;
+/// What heights that must be the same may differ by (m).
+const SAME: f64 = 1e-9;
 /// Room beside the patch that points must cover, in its half lengths.
 const ROOM: f64 = 2.0;
 
@@ -22,15 +24,19 @@ pub(super) fn check(case: &Case, found: &mut Findings<'_>) {
         ("bar.surface", &case.bar.surface, Coordinate::X, bar),
         ("disk.out_of_round", &case.disk.out_of_round, Coordinate::Angle, [-PI, PI]),
     ];
-    let half = 0.5 * case.disk.width.min(case.bar.width);
-    let across = (-TRIALS_ACROSS..=TRIALS_ACROSS)
-        .map(|j| half * f64::from(j) / f64::from(TRIALS_ACROSS))
-        .collect::<Vec<f64>>();
+    // half as far apart as the nodes of the fine zone
+    let half = 0.5 * case.mesh.zone.width;
+    let rows = (half / (0.5 * case.mesh.zone.size)).ceil().clamp(1.0, TRIALS_ACROSS) as i32;
+    let spread = |j: i32| half * f64::from(j) / f64::from(rows);
     for (key, given, over, [first, last]) in keys {
         let Some(given) = given else { continue };
         // heights that do not parse were refused before
         let Ok(heights) = given.heights(over) else { continue };
         let at = |i: u32| first + (last - first) * f64::from(i) / f64::from(TRIALS);
+        let across: Vec<f64> = match given.varies_across(over) {
+            true => (-rows..=rows).map(spread).collect(),
+            false => vec![0.0],
+        };
         let places = || (0..=TRIALS).flat_map(|i| across.iter().map(move |&y| [at(i), y]));
         if matches!(given, SurfaceHeights::Formula(_)) {
             check_formula(&*heights, over, places(), key, found);
@@ -48,11 +54,12 @@ fn check_symmetry(
     key: &str,
     found: &mut Findings<'_>,
 ) {
+    if !case.mesh.plane_strain && case.mesh.symmetry != Symmetry::Half {
+        return;
+    }
     let other = |y: f64| if case.mesh.plane_strain { 0.0 } else { -y };
-    let differ =
-        |at: f64, y: f64| (heights.at(at, y) - heights.at(at, other(y))).abs() > mesh::CLOSED;
-    let symmetric = case.mesh.plane_strain || case.mesh.symmetry == Symmetry::Half;
-    let wrong = places.find(|&[at, y]| symmetric && differ(at, y));
+    let differ = |at: f64, y: f64| (heights.at(at, y) - heights.at(at, other(y))).abs() > SAME;
+    let wrong = places.find(|&[at, y]| differ(at, y));
     found.require(
         wrong.is_none(),
         &[key, if case.mesh.plane_strain { "mesh.plane_strain" } else { "mesh.symmetry" }],
@@ -79,15 +86,16 @@ fn check_reach(case: &Case, found: &mut Findings<'_>) {
         _ => return,
     };
     let Ok([ends, [low, high]]) = ends else { return };
-    let half = if case.mesh.plane_strain { 0.0 } else { patch.b };
+    let half = if case.mesh.plane_strain { 0.0 } else { patch.b + case.drift() };
     found.require(
         low <= -half && high >= half,
         &["bar.surface"],
         format_args!(
-            "bar.surface gives heights from y = {} to {} m, but the patch is {} m wide",
+            "bar.surface gives heights from y = {} to {} m, but the patch needs them from {} to {} m",
             number(low),
             number(high),
-            digits(2.0 * half)
+            digits(-half),
+            digits(half)
         ),
         "give heights over the width of the patch; y is in metres from the point of first contact",
     );
