@@ -86,6 +86,7 @@ fn heights_that_a_half_model_or_a_slice_cannot_have_are_refused() {
         "mesh.zone.width=1e-3",
         "disk.width=1e-3",
         "bar.width=1e-3",
+        "load.normal=1e3",
     ];
     let models = [&["mesh.symmetry=half"][..], &slice];
     for (place, fits) in [("x", [true, true]), ("y", [true, false]), ("(y - 5e-4)", [false, false])]
