@@ -56,7 +56,7 @@ fn a_rail_whose_heights_rise_across_presses_the_wheel_aside_by_their_slope() {
     let slope = 5e-3;
     let rising = format!("bar.surface={{ formula = \"{slope}*y\" }}");
     let free = [
-        "mesh.symmetry=none",
+        "mesh.symmetry=whole",
         "disk.crown_radius=0.06",
         "friction.static=1e-5",
         "drive.creepage=0",

@@ -70,7 +70,7 @@ fn check_symmetry(
                 here.1, here.0, there.1, there.0
             )
         }),
-        "give heights that are the same there, or model both halves (mesh.symmetry = \"none\", mesh.plane_strain = false)",
+        "give heights that are the same there, or model both halves (mesh.symmetry = \"whole\", mesh.plane_strain = false)",
     );
 }
 
