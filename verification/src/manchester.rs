@@ -6,9 +6,9 @@
 //! at 10.50 and 25.99 mm, not at 10.23 and 26.03 mm, which puts 60E1 up to 0.038 mm from its points. The problem takes the arcs of the
 //! benchmark, and tells what 60E1 changes.
 //!
-//! On the right rail at case 11 the wheel touches in two patches, whose middles are 10 mm and whose edges d = 7.7 mm apart. CONTACT
-//! lets patches with d from 4 to 8 mm (`D_COMB`, `D_SEP`) deform one another by a part of what half-spaces do, ((8 - d)/4)^0.8
-//! (`combine_cpatches`), here 0.13. The case is reported separately, also with patches that do not deform one another.
+//! On the right rail at case 11 the wheel touches in two patches, whose middles are 10 mm apart. CONTACT lets patches whose edges are
+//! d = 4 to 8 mm apart (`D_COMB`, `D_SEP`) deform one another by a part of what half-spaces do, ((8 - d)/4)^0.8
+//! (`combine_cpatches`). The case is reported separately, also with patches that do not deform one another, nearer to CONTACT's.
 
 mod case;
 
