@@ -22,6 +22,9 @@ const BITS: u32 = 32;
 /// Number of digits: the largest f64 reaches into the 66th, the rest is for carries.
 const DIGITS: usize = 68;
 
+/// Numbers that [`ExactSum::words`] gives: the digits, and whether positive and negative infinities are in the sum.
+pub const WORDS: usize = DIGITS + 2;
+
 /// Addends between two carries: each changes a digit by less than 2^53, so that an i64 holds so many.
 const ADDENDS: u32 = 1 << 9;
 
@@ -118,6 +121,32 @@ impl ExactSum {
         if negative { -magnitude } else { magnitude }
     }
 
+    /// The sum as whole numbers, which can be added up, word by word, with those of up to 2^30 other sums:
+    /// [`of_words`](Self::of_words) makes the sum of all of them.
+    pub fn words(&self) -> [i64; WORDS] {
+        let mut sum = *self;
+        sum.carry();
+        let mut words = [0; WORDS];
+        words[..DIGITS].copy_from_slice(&sum.digits);
+        // NaN is the sum of both infinities
+        words[DIGITS] = i64::from(sum.special > 0.0 || sum.special.is_nan());
+        words[DIGITS + 1] = i64::from(sum.special < 0.0 || sum.special.is_nan());
+        words
+    }
+
+    /// The sum that these words are of.
+    pub fn of_words(words: &[i64; WORDS]) -> Self {
+        let mut sum = Self { used: [0, DIGITS - 1], addends_left: 0, ..Self::ZERO };
+        sum.digits.copy_from_slice(&words[..DIGITS]);
+        if words[DIGITS] > 0 {
+            sum.special += f64::INFINITY;
+        }
+        if words[DIGITS + 1] > 0 {
+            sum.special += f64::NEG_INFINITY;
+        }
+        sum
+    }
+
     /// Brings every digit into 0..2^32, except the highest in use, which carries the sign.
     fn carry(&mut self) {
         self.addends_left = ADDENDS;
@@ -141,6 +170,12 @@ fn scaled(x: f64, e: i32) -> f64 {
     let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
     let first = e.clamp(-1000, 1000);
     x * power(first) * power(e - first)
+}
+
+impl Default for ExactSum {
+    fn default() -> Self {
+        Self::ZERO
+    }
 }
 
 impl Extend<f64> for ExactSum {
@@ -203,6 +238,18 @@ mod tests {
             let mut parts: ExactSum = b.iter().copied().collect();
             parts.merge(a.iter().copied().collect());
             prop_assert_eq!(parts.value().to_bits(), expected);
+        }
+
+        #[test]
+        fn words_of_parts_add_up_to_the_sum_of_all(
+            addends in prop::collection::vec(any::<f64>(), 0..300), cut in 0usize..300,
+        ) {
+            let (a, b) = addends.split_at(cut.min(addends.len()));
+            let of = |part: &[f64]| part.iter().copied().collect::<ExactSum>().words();
+            let (mut words, others) = (of(a), of(b));
+            words.iter_mut().zip(others).for_each(|(word, other)| *word += other);
+            let (together, expected) = (ExactSum::of_words(&words).value(), sum(&addends));
+            prop_assert!(together.to_bits() == expected.to_bits() || together.is_nan() && expected.is_nan());
         }
     }
 
