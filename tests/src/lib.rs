@@ -6,6 +6,7 @@ pub mod damage;
 pub mod inputs;
 pub mod kill;
 pub mod kill_points;
+pub mod threads_as_ranks;
 pub mod trace;
 
 use std::collections::BTreeMap;

@@ -18,6 +18,7 @@ mod physics;
 mod plane_strain;
 mod preload;
 mod profiles;
+mod ranks;
 mod resultants;
 mod sideways;
 mod window;

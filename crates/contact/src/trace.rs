@@ -46,6 +46,11 @@ impl Trace {
         &self.nodes
     }
 
+    /// Numbers in the mesh of the nodes whose positions it reads: its own, and those across from nodes that irregularities move.
+    pub fn read(&self) -> impl Iterator<Item = u32> + '_ {
+        self.nodes.iter().copied().chain(self.lifts.inward())
+    }
+
     /// Numbers in the mesh of the nodes of side 0 or 1, ascending.
     pub fn side(&self, side: usize) -> &[u32] {
         &self.nodes[self.range(side)]

@@ -43,7 +43,7 @@ pub use mesh::{MeshOptions, mesh};
 pub use plot::{Drawn, DrawnFigure, PlotOptions, plot};
 pub use render::RenderOptions;
 pub use report::{ReportOptions, Reported, report};
-pub use run::{Ran, run};
+pub use run::{Ran, assist, run};
 pub use slider::{
     LawName, LawNumbers, MethodName, SettingError, Settings, SliderFound, SliderOptions,
     SliderResult, SliderRun, slider,

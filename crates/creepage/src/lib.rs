@@ -125,10 +125,11 @@ pub use check::{
     CheckResult, Checked, ImportContactOptions, Measure, Pairing, Report as PairingReport,
 };
 pub use commands::*;
+pub use dynamics::{Message, Ranks};
 pub use friction::OwnLaw;
 pub use ls_dyna::Units;
 pub use output::summary::Summary;
-pub use run::{BlockElement, Level, RunOptions};
+pub use run::{BlockElement, Leader, Level, RunOptions};
 pub use scenario::{Cost, Progress, Stage};
 pub use subsurface::StressProfile;
 pub use sweep::{Cell, Column, SweepResult, Table, Watched};

@@ -57,6 +57,7 @@ fn worst_spot(contact: &dyn ContactTables, measure: impl Fn(&Spot) -> f64) -> Op
 impl Simulation {
     /// Forces of the elements on the nodes (N) in the present state, without viscous parts.
     pub fn elastic_force(&mut self) -> Vec<Padded> {
+        self.gather_for_good();
         let mut force = vec![Padded::ZERO; self.nodes.displacement.len()];
         self.system.solid.subtract_elastic_force(&self.nodes.displacement, &mut force, false);
         force
@@ -82,6 +83,7 @@ impl Simulation {
             Some(now) if violated(&self.ledger, now) => self.energy_cause(now),
             Some(now) => {
                 let cause = self.soft_cause(report, now)?;
+                self.gather_for_good();
                 // what bodies inside out do is no cause
                 let (element, ratio) = self.system.solid.most_folded(&self.nodes.displacement);
                 if ratio <= 0.0 { self.inverted(element) } else { cause }
@@ -113,6 +115,7 @@ impl Simulation {
 
     /// Where energy comes from that nothing supplied.
     fn energy_cause(&mut self, now: &Energies) -> Cause {
+        self.gather_for_good();
         let ratio = self.dt / self.dt_limit;
         if ratio > 1.0 && self.implicit.is_none() {
             return Cause::UnstableStep { ratio };
@@ -170,6 +173,9 @@ impl Simulation {
             return Some(Cause::MeshMoves { energy: self.ledger.moved });
         }
         let looks = looks_at_shape(report.step);
+        if looks {
+            self.gather();
+        }
         if let Some(usual) = self.usual_hourglass(now, looks)
             && usual > limits.least_energy
             && usual > limits.hourglass * now.internal
@@ -222,7 +228,8 @@ impl Simulation {
         Cause::Friction { mu, limit: self.limits.friction, slip_speed, pressure }
     }
 
-    fn diagnosis(&self, report: &StepReport, cause: Cause) -> Diagnosis {
+    fn diagnosis(&mut self, report: &StepReport, cause: Cause) -> Diagnosis {
+        self.gather_for_good();
         let spot = self.system.contact.as_deref().and_then(|contact| match cause {
             Cause::Friction { .. } => worst_spot(contact, |spot| spot.mu),
             Cause::Penetration { .. } => worst_spot(contact, |spot| -spot.gap),

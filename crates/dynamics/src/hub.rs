@@ -111,6 +111,12 @@ pub struct Resultant {
 }
 
 impl Resultant {
+    /// That of these sums: force, then moment.
+    pub(crate) fn of(sums: &[ExactSum; 6]) -> Self {
+        let [fx, fy, fz, mx, my, mz] = sums.each_ref().map(ExactSum::value);
+        Self { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) }
+    }
+
     /// Adds another.
     pub(crate) fn add(&mut self, other: &Self) {
         self.force += other.force;
@@ -266,6 +272,17 @@ impl Hub {
         self.resultant_about(Vector3::new(x, y, z), displacement, force)
     }
 
+    /// The sums of [`resultant`](Self::resultant) over the nodes that `counts`: force, then moment.
+    pub(crate) fn resultant_sums(
+        &self,
+        displacement: &[Padded],
+        force: &[Padded],
+        counts: impl Fn(u32) -> bool,
+    ) -> [ExactSum; 6] {
+        let HubState { x, y, z, .. } = self.state;
+        self.sums_about(Vector3::new(x, y, z), displacement, force, counts)
+    }
+
     /// The same, the moment about the centre displaced by `centre` (m).
     pub(crate) fn resultant_about(
         &self,
@@ -273,23 +290,30 @@ impl Hub {
         displacement: &[Padded],
         force: &[Padded],
     ) -> Resultant {
-        let mut sum = [ExactSum::ZERO; 3];
-        let mut across = [ExactSum::ZERO; 3];
-        for (&n, arm) in self.nodes.iter().zip(&self.arms) {
+        Resultant::of(&self.sums_about(centre, displacement, force, |_| true))
+    }
+
+    fn sums_about(
+        &self,
+        centre: Vector3<f64>,
+        displacement: &[Padded],
+        force: &[Padded],
+        counts: impl Fn(u32) -> bool,
+    ) -> [ExactSum; 6] {
+        let mut sums = [ExactSum::ZERO; 6];
+        for (&n, arm) in self.nodes.iter().zip(&self.arms).filter(|(n, _)| counts(**n)) {
             let f = force[n as usize].vector();
             let moment = (arm + displacement[n as usize].vector() - centre).cross(&f);
-            sum[0].add(f.x);
-            sum[1].add(f.z);
-            sum[2].add(moment.y);
+            sums[0].add(f.x);
+            sums[2].add(f.z);
+            sums[4].add(moment.y);
             if self.sideways.is_some() {
-                across[0].add(f.y);
-                across[1].add(moment.x);
-                across[2].add(moment.z);
+                sums[1].add(f.y);
+                sums[3].add(moment.x);
+                sums[5].add(moment.z);
             }
         }
-        let [fx, fz, my] = sum.map(|s| s.value());
-        let [fy, mx, mz] = across.map(|s| s.value());
-        Resultant { force: Vector3::new(fx, fy, fz), moment: Vector3::new(mx, my, mz) }
+        sums
     }
 
     /// The displacement (m) of any reference position (m) that moves with the hub as one rigid body.

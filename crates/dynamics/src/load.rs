@@ -1,6 +1,7 @@
 //! Given forces and directions in which nodes do not move.
 
 use crate::ramp::smoothstep;
+use exact_sum::ExactSum;
 use mesh::Padded;
 use nalgebra::Vector3;
 
@@ -22,16 +23,26 @@ impl Load {
 
     /// Adds the forces at `time` to `force`.
     pub(crate) fn apply(&self, time: f64, force: &mut [Padded]) {
-        let share = smoothstep(time, self.ramp);
+        let part = self.fraction(time);
         for (n, f) in &self.forces {
-            force[*n as usize] += share * f;
+            force[*n as usize] += part * f;
         }
     }
 
     /// Power of the forces at `time` on nodes that move at `velocity` (W).
     pub(crate) fn power(&self, time: f64, velocity: &[Padded]) -> f64 {
+        self.fraction(time) * self.full_power(velocity, |_| true).value()
+    }
+
+    /// The part of the forces that acts at `time`.
+    pub(crate) fn fraction(&self, time: f64) -> f64 {
+        smoothstep(time, self.ramp)
+    }
+
+    /// Power of the forces after the ramp on the nodes that `counts`, which move at `velocity` (W).
+    pub(crate) fn full_power(&self, velocity: &[Padded], counts: impl Fn(u32) -> bool) -> ExactSum {
         let power = |(n, f): &(u32, Vector3<f64>)| f.dot(&velocity[*n as usize].vector());
-        smoothstep(time, self.ramp) * exact_sum::sum(self.forces.iter().map(power))
+        self.forces.iter().filter(|(n, _)| counts(*n)).map(power).collect()
     }
 }
 

@@ -3,14 +3,16 @@
 //! They are split into chunks, which threads take in any order; what is summed up over the nodes is summed exactly.
 //! Contact sees the nodes of its surfaces alone, the trace: the loops to it and from it are here too.
 
-use crate::node_sums::NodeSums;
+use crate::partition::CHUNK;
+use crate::step_sums::NodeSums;
 use contact::{ContactStep, ContactSums, FreeMotion, PenaltyContact, TraceFields, TraceStep};
+use exact_sum::ExactSum;
 use mesh::Padded;
 use nalgebra::Vector3;
 use rayon::prelude::*;
 
-/// Nodes per chunk; fixed, so that partial sums do not depend on the threads.
-pub(crate) const CHUNK: usize = 4096;
+/// Nodes that a thread takes at a time, at least.
+pub(crate) const TASK: usize = 4096;
 
 /// Displacements, velocities and forces of all nodes, and what `S` sums up over each chunk of them.
 pub(crate) struct NodalState<S = NodeSums> {
@@ -81,6 +83,7 @@ impl<S: Clone + Default + Send + Sync> NodalState<S> {
             .zip(self.force.par_chunks_mut(CHUNK).zip(self.inverse_mass.par_chunks(CHUNK)))
             .zip(self.partial.par_iter_mut())
             .enumerate()
+            .with_min_len(TASK / CHUNK)
             .map(|(chunk, (((u, v), (f, inverse_mass)), sums))| Chunk {
                 u,
                 v,
@@ -92,8 +95,8 @@ impl<S: Clone + Default + Send + Sync> NodalState<S> {
     }
 
     /// The sum over the chunks, in whatever order they came.
-    pub(crate) fn sum(&self, of: impl Fn(&S) -> f64) -> f64 {
-        exact_sum::sum(self.partial.iter().map(of))
+    pub(crate) fn sum(&self, of: impl Fn(&S) -> f64) -> ExactSum {
+        self.partial.iter().map(of).collect()
     }
 
     /// Bytes of the arrays over all nodes.

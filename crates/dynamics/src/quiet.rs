@@ -22,13 +22,24 @@ struct QuietNode {
     reaction: Vector3<f64>,
 }
 
-/// Energies of a step at the quiet ends, split at the full step (J).
+/// Energies of a step at the quiet ends, split at the full step (J): rounded, or exact (`T` is [`ExactSum`]).
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct QuietWork {
-    pub(crate) dissipated_before: f64,
-    pub(crate) dissipated_after: f64,
-    pub(crate) external_before: f64,
-    pub(crate) external_after: f64,
+pub(crate) struct QuietWork<T = f64> {
+    pub(crate) dissipated_before: T,
+    pub(crate) dissipated_after: T,
+    pub(crate) external_before: T,
+    pub(crate) external_after: T,
+}
+
+impl QuietWork<ExactSum> {
+    pub(crate) fn value(&self) -> QuietWork {
+        QuietWork {
+            dissipated_before: self.dissipated_before.value(),
+            dissipated_after: self.dissipated_after.value(),
+            external_before: self.external_before.value(),
+            external_after: self.external_after.value(),
+        }
+    }
 }
 
 impl QuietEnd {
@@ -106,14 +117,15 @@ impl QuietEnd {
     }
 
     /// Adds reaction and dashpot to `force`, the dashpot acting on the mean of the velocities
-    /// before and after the step, so that it is stable at any step.
+    /// before and after the step, so that it is stable at any step. The work is that of the nodes that `counts`.
     pub(crate) fn apply(
         &self,
         velocity: &[Padded],
         inverse_mass: &[f64],
         dt: f64,
         force: &mut [Padded],
-    ) -> QuietWork {
+        counts: impl Fn(u32) -> bool,
+    ) -> QuietWork<ExactSum> {
         let mut work = [ExactSum::ZERO; 4];
         let half = 0.5 * dt;
         for n in &self.nodes {
@@ -131,10 +143,11 @@ impl QuietEnd {
                 of_node[2] += half * n.reaction[i] * v.0[i];
                 of_node[3] += half * n.reaction[i] * after;
             }
-            work.iter_mut().zip(of_node).for_each(|(sum, w)| sum.add(w));
+            if counts(n.node) {
+                work.iter_mut().zip(of_node).for_each(|(sum, w)| sum.add(w));
+            }
         }
-        let [dissipated_before, dissipated_after, external_before, external_after] =
-            work.map(|sum| sum.value());
+        let [dissipated_before, dissipated_after, external_before, external_after] = work;
         QuietWork { dissipated_before, dissipated_after, external_before, external_after }
     }
 }

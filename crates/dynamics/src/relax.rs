@@ -10,7 +10,8 @@
 //! above its true one, rocking on the contact.
 
 use crate::hub::Hub;
-use crate::nodal_state::{CHUNK, Chunk, NodalState};
+use crate::nodal_state::{Chunk, NodalState};
+use crate::partition::CHUNK;
 use contact::PenaltyContact;
 use mesh::Padded;
 use rayon::prelude::*;
@@ -145,8 +146,8 @@ pub fn relax(
         hub.z += hub.v;
         hub.force_before = hub_force;
         advance(&mut nodes, &mut fictitious, damped, &setup.upper, hub.v);
-        motion.stiffness += nodes.sum(|p| p.stiffness);
-        motion.mass += nodes.sum(|p| p.mass);
+        motion.stiffness += nodes.sum(|p| p.stiffness).value();
+        motion.mass += nodes.sum(|p| p.mass).value();
         if check {
             report = RelaxationReport {
                 iterations: iteration,
@@ -236,7 +237,7 @@ fn centrifugal(
             }
         }
     });
-    setup.omega * setup.omega * setup.hub.counterweight[1] + nodes.sum(|p| p.pull)
+    setup.omega * setup.omega * setup.hub.counterweight[1] + nodes.sum(|p| p.pull).value()
 }
 
 /// One damped step of all nodes; the upper body moves with the hub by `shift` besides.

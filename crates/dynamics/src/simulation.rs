@@ -5,6 +5,7 @@ use crate::hub::{DriveReaction, Hub};
 use crate::implicit::Implicit;
 use crate::ledger::{Energies, Ledger};
 use crate::nodal_state::NodalState;
+use crate::share::Share;
 use crate::system::System;
 use crate::unsolved::Unsolved;
 use crate::window::{Travel, Window};
@@ -76,6 +77,8 @@ pub struct Simulation {
     pub(crate) travel: Travel,
     /// The integrator of implicit steps; explicit ones have none.
     pub(crate) implicit: Option<Box<Implicit>>,
+    /// The share of this process, where several step the simulation together.
+    pub(crate) share: Option<Share>,
 }
 
 impl Simulation {
@@ -100,6 +103,7 @@ impl Simulation {
             window: None,
             travel: Travel::default(),
             implicit: None,
+            share: None,
         }
     }
 

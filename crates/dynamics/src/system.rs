@@ -9,6 +9,7 @@ use crate::nodal_state::{NodalState, TraceNode};
 use crate::paired;
 use crate::quiet::{QuietEnd, QuietWork};
 use contact::{ContactSums, Method};
+use exact_sum::ExactSum;
 use mesh::Padded;
 use nalgebra::Vector3;
 use solid::{ForceSums, Solid};
@@ -91,7 +92,7 @@ impl System {
         nodes: &mut NodalState,
         [time, dt]: [f64; 2],
         energies: bool,
-    ) -> (ForceSums, Duration) {
+    ) -> (ForceSums<ExactSum>, Duration) {
         let NodalState { displacement, velocity, force, trace, .. } = nodes;
         let (displacement, velocity) = (&*displacement, &*velocity);
         let contact = &mut self.contact;
@@ -108,17 +109,19 @@ impl System {
         solid.subtract_internal_force_beside(displacement, velocity, force, energies, follow)
     }
 
-    /// Adds given forces and those of the quiet ends at `time` with the step `dt` (s).
+    /// Adds given forces and those of the quiet ends at `time` with the step `dt` (s). The work is that of the nodes that
+    /// `counts`.
     pub(crate) fn add_boundary_force(
         &self,
         nodes: &mut NodalState,
         [time, dt]: [f64; 2],
-    ) -> QuietWork {
+        counts: impl Fn(u32) -> bool,
+    ) -> QuietWork<ExactSum> {
         let force = &mut nodes.force;
         // a support bears the body's own force; a given one reaches contact first
         Fixed::clear(&self.fixed, force);
         self.load.apply(time, force);
-        let work = self.quiet.apply(&nodes.velocity, &nodes.inverse_mass, dt, force);
+        let work = self.quiet.apply(&nodes.velocity, &nodes.inverse_mass, dt, force, counts);
         paired::share(&self.paired, force);
         work
     }

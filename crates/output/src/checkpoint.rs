@@ -86,7 +86,7 @@ impl Checkpoint {
     /// # Errors
     /// A state of another type.
     pub fn state<S: DeserializeOwned>(&self) -> Result<S, OutputError> {
-        postcard::from_bytes(&self.state).map_err(|cause| OutputError::State { cause })
+        of_bytes(&self.state)
     }
 
     /// Writes it to `folder` as the newest of [`CHECKPOINTS`]; the newest so far becomes the previous one.
@@ -150,8 +150,20 @@ impl Checkpoint {
     }
 }
 
-fn bytes_of(value: &impl Serialize) -> Result<Vec<u8>, OutputError> {
+/// A value as postcard, every bit of its numbers with it.
+///
+/// # Errors
+/// A value that postcard cannot serialise, such as a sequence of unknown length.
+pub fn bytes_of(value: &impl Serialize) -> Result<Vec<u8>, OutputError> {
     postcard::to_allocvec(value).map_err(|cause| OutputError::State { cause })
+}
+
+/// The value of which [`bytes_of`] made these bytes.
+///
+/// # Errors
+/// Bytes of another type.
+pub fn of_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, OutputError> {
+    postcard::from_bytes(bytes).map_err(|cause| OutputError::State { cause })
 }
 
 /// SHA-256 over provenance and datasets, in an order that does not depend on that of the attributes.

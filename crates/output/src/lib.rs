@@ -49,7 +49,7 @@ pub mod summary;
 mod vtu;
 
 pub use background::{BackgroundWriter, RunFiles, Snapshot};
-pub use checkpoint::{CHECKPOINTS, Checkpoint, Results};
+pub use checkpoint::{CHECKPOINTS, Checkpoint, Results, bytes_of, of_bytes};
 pub use checksums::{Kept, hexadecimal, verify};
 pub use disk_space::{free_space, room_left};
 pub use error::{NotWritten, OutputError};

@@ -8,6 +8,7 @@
 
 use crate::formulation::Elements;
 use mesh::Mesh;
+use std::ops::Range;
 
 /// Number of blocks into which a body's one-point elements are cut, within the bounds of [`BLOCK_ELEMENTS`]: enough
 /// for the threads of a large machine in two or three colours. More blocks would be smaller and have more nodes
@@ -40,17 +41,76 @@ pub(crate) struct Batch {
     pub(crate) nodes: [[u32; BATCH]; 8],
 }
 
+/// Batches whose energies are added up one after the other; the sums of the groups are added up exactly.
+const GROUP: usize = 8;
+
 /// Consecutive batches of one body and one formulation.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
     /// Indices in [`Blocks::batches`].
-    pub(crate) batches: std::ops::Range<usize>,
+    pub(crate) batches: Range<usize>,
     /// Number of elements, at most eight per batch; only the last batch may be partial.
     pub(crate) elements: usize,
     /// Index of the body, hence of the material.
     pub(crate) body: usize,
     /// Whether its elements are fully integrated.
     pub(crate) full: bool,
+}
+
+/// Batches of a block that are computed together.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    /// Indices in [`Blocks::batches`].
+    pub(crate) batches: Range<usize>,
+    /// Number of elements, at most eight per batch; only the last batch may be partial.
+    pub(crate) elements: usize,
+    /// Whether it is a whole group, the energies of which are counted.
+    pub(crate) counts: bool,
+}
+
+/// The part of the elements that is computed, block by block; colours and the order within a block stay, so that
+/// a node whose elements are all computed receives its contributions in the order of the whole.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Pieces {
+    pub(crate) all: Vec<Piece>,
+    /// Indices in `all` of the pieces of each block.
+    pub(crate) of_block: Vec<Range<usize>>,
+}
+
+impl Pieces {
+    /// Of `blocks`, the groups whose first element `counts`, and of the others the batches that are `needed`.
+    pub(crate) fn new(
+        blocks: &Blocks,
+        counts: impl Fn(&Batch) -> bool,
+        needed: impl Fn(&Batch) -> bool,
+    ) -> Self {
+        let mut pieces = Self::default();
+        for block in &blocks.blocks {
+            let before = pieces.all.len();
+            let (first, end) = (block.batches.start, block.batches.end);
+            let piece = |batches: Range<usize>, counts| {
+                let elements = block.elements.min(BATCH * (batches.end - first));
+                Piece { elements: elements - BATCH * (batches.start - first), batches, counts }
+            };
+            for group in (first..end).step_by(GROUP) {
+                let group = group..end.min(group + GROUP);
+                if counts(&blocks.batches[group.start]) {
+                    pieces.all.push(piece(group, true));
+                    continue;
+                }
+                for batch in group.filter(|&b| needed(&blocks.batches[b])) {
+                    match pieces.all[before..].last_mut() {
+                        Some(last) if !last.counts && last.batches.end == batch => {
+                            *last = piece(last.batches.start..batch + 1, false);
+                        }
+                        _ => pieces.all.push(piece(batch..batch + 1, false)),
+                    }
+                }
+            }
+            pieces.of_block.push(before..pieces.all.len());
+        }
+        pieces
+    }
 }
 
 /// All batches and the coloured blocks that own them.

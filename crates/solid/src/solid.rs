@@ -1,6 +1,6 @@
 //! All bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
-use crate::blocks::{Batch, Block, Blocks};
+use crate::blocks::{Batch, Block, Blocks, Pieces};
 use crate::count::work;
 use crate::formulation::{Element, Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
@@ -14,6 +14,7 @@ use crate::lanes::x86;
 use crate::lanes::{Four, Level};
 use crate::material::{Material, MaterialError};
 use crate::stress::{deformation, mean_cauchy, one_point_cauchy};
+use exact_sum::ExactSum;
 use mesh::{Mesh, Padded};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -39,15 +40,27 @@ impl Viscosity {
     }
 }
 
-/// Sums over all elements of an evaluation of the internal force.
+/// Sums over all elements of an evaluation of the internal force: rounded, or exact (`T` is [`ExactSum`]) over the elements
+/// whose energies are counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ForceSums {
+pub struct ForceSums<T = f64> {
     /// Strain energy (J); zero unless energies were asked for.
-    pub internal: f64,
+    pub internal: T,
     /// Hourglass energy (J); zero unless energies were asked for.
-    pub hourglass: f64,
+    pub hourglass: T,
     /// Power dissipated by viscous stresses (W); zero if there are none.
-    pub viscous_power: f64,
+    pub viscous_power: T,
+}
+
+impl ForceSums<ExactSum> {
+    /// The sums, rounded.
+    pub fn value(&self) -> ForceSums {
+        ForceSums {
+            internal: self.internal.value(),
+            hourglass: self.hourglass.value(),
+            viscous_power: self.viscous_power.value(),
+        }
+    }
 }
 
 /// Why a solid cannot be set up.
@@ -104,6 +117,8 @@ type BlockForce = unsafe fn(&[Batch], usize, &Constants, Arrays) -> Sums;
 pub struct Solid {
     reference: Vec<Padded>,
     blocks: Blocks,
+    /// What is computed of them, and the sums over each piece.
+    pieces: Pieces,
     /// Per body, for its one-point and for its fully integrated elements.
     constants: Vec<[Constants; 2]>,
     one_point: Element,
@@ -171,9 +186,11 @@ impl Solid {
         };
         let constants = materials.iter().map(|m| [64.0, 512.0].map(|w| constants(m, w))).collect();
         let blocks = Blocks::new(mesh, &elements);
+        let pieces = Pieces::new(&blocks, |_| true, |_| true);
         Ok(Self {
             reference: mesh.nodes.iter().map(|x| Padded::from(*x)).collect(),
-            sums: vec![[0.0; 3]; blocks.blocks.len()],
+            sums: vec![[0.0; 3]; pieces.all.len()],
+            pieces,
             blocks,
             constants,
             one_point: elements.one_point(),
@@ -239,7 +256,9 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.subtract_internal_force_beside(displacement, velocity, force, energies, || ()).0
+        self.subtract_internal_force_beside(displacement, velocity, force, energies, || ())
+            .0
+            .value()
     }
 
     /// As [`subtract_internal_force`](Self::subtract_internal_force), while one of the threads does the independent
@@ -254,7 +273,7 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
         beside: impl FnOnce() -> R + Send,
-    ) -> (ForceSums, R) {
+    ) -> (ForceSums<ExactSum>, R) {
         self.run(displacement, velocity, force, energies, self.viscous, beside)
     }
 
@@ -268,7 +287,7 @@ impl Solid {
         force: &mut [Padded],
         energies: bool,
     ) -> ForceSums {
-        self.run(displacement, &[], force, energies, false, || ()).0
+        self.run(displacement, &[], force, energies, false, || ()).0.value()
     }
 
     /// `y += K x` (N) with the stiffness K of the undeformed state. The product is the internal force at the
@@ -291,7 +310,7 @@ impl Solid {
         energies: bool,
         viscous: bool,
         beside: impl FnOnce() -> R + Send,
-    ) -> (ForceSums, R) {
+    ) -> (ForceSums<ExactSum>, R) {
         let nodes = self.reference.len();
         assert!(displacement.len() >= nodes && force.len() >= nodes);
         assert!(!viscous || velocity.len() >= nodes);
@@ -305,20 +324,24 @@ impl Solid {
         });
         let sums = SharedSums(self.sums.as_mut_ptr());
         let Blocks { batches, blocks, colours, .. } = &self.blocks;
+        let Pieces { all: pieces, of_block } = &self.pieces;
         let constants = &self.constants;
         let run = |&b: &u32| {
             let (arrays, sums) = (&arrays, &sums);
             let block: &Block = &blocks[b as usize];
-            // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
-            // node count the asserts above compare; blocks of one colour share no nodes, colours
-            // run one after the other, and each block writes its own entry of `sums`.
-            unsafe {
-                *sums.0.add(b as usize) = kernels[usize::from(block.full)](
-                    &batches[block.batches.clone()],
-                    block.elements,
-                    &constants[block.body][usize::from(block.full)],
-                    arrays.0,
-                );
+            for p in of_block[b as usize].clone() {
+                let piece = &pieces[p];
+                // SAFETY: the level was checked in `new`; node indices were taken from the mesh whose
+                // node count the asserts above compare; blocks of one colour share no nodes, colours
+                // run one after the other, and each piece writes its own entry of `sums`.
+                unsafe {
+                    *sums.0.add(p) = kernels[usize::from(block.full)](
+                        &batches[piece.batches.clone()],
+                        piece.elements,
+                        &constants[block.body][usize::from(block.full)],
+                        arrays.0,
+                    );
+                }
             }
         };
         let done_beside = if rayon::current_num_threads() == 1 {
@@ -328,11 +351,45 @@ impl Solid {
             let force = || colours.iter().for_each(|colour| colour.par_iter().for_each(run));
             rayon::join(force, beside).1
         };
-        let wanted = energies || viscous;
-        let sum = |i: usize| exact_sum::sum(self.sums.iter().map(|s| s[i]));
-        let total = if wanted { [sum(0), sum(1), sum(2)] } else { [0.0; 3] };
-        let sums = ForceSums { internal: total[0], hourglass: total[1], viscous_power: total[2] };
+        let counted = self.sums.iter().zip(pieces).filter(|(_, piece)| piece.counts);
+        let sum = |i: usize, wanted: bool| {
+            counted.clone().filter(|_| wanted).map(|(sums, _)| sums[i]).collect::<ExactSum>()
+        };
+        let sums = ForceSums {
+            internal: sum(0, energies),
+            hourglass: sum(1, energies),
+            viscous_power: sum(2, viscous),
+        };
         (sums, done_beside)
+    }
+
+    /// From now on computes the share of a process alone: all elements of the nodes that it `owns`, whose forces then have the
+    /// bits of the whole, and energies of groups of elements whose first node it owns. The others' nodes, which its
+    /// elements have besides, receive forces without meaning.
+    pub fn take_share(&mut self, owns: impl Fn(u32) -> bool) {
+        let needed = |batch: &Batch| batch.nodes.as_flattened().iter().any(|&n| owns(n));
+        self.take(Pieces::new(&self.blocks, |batch| owns(batch.nodes[0][0]), needed));
+    }
+
+    /// Computes all elements again.
+    pub fn take_all(&mut self) {
+        self.take(Pieces::new(&self.blocks, |_| true, |_| true));
+    }
+
+    fn take(&mut self, pieces: Pieces) {
+        self.sums = vec![[0.0; 3]; pieces.all.len()];
+        self.pieces = pieces;
+    }
+
+    /// The nodes of the elements that are computed, some of them several times.
+    pub fn nodes_of_share(&self) -> impl Iterator<Item = u32> + '_ {
+        let batches = self.pieces.all.iter().flat_map(|piece| piece.batches.clone());
+        batches.flat_map(|b| self.blocks.batches[b].nodes.as_flattened()).copied()
+    }
+
+    /// Number of elements that are computed, as the kernels count them: in whole batches.
+    pub fn elements_of_share(&self) -> usize {
+        self.pieces.all.iter().map(|piece| piece.elements).sum()
     }
 
     /// Writes the Cauchy stress of each element into `stress` (Pa): xx yy zz xy yz xz in the global axes, without

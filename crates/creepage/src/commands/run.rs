@@ -1,14 +1,15 @@
 //! A run of a case.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::check::{Basis, RunPaths};
 use output::summary::{Status, Summary};
 
 use crate::commands::error::{INTERRUPTED, STOPPED_BY_GUARD};
 use crate::commands::values::threads;
-use crate::rule::THREADS;
-use crate::{Error, Listener, RunOptions};
+use crate::rule::{THREADS, all_cores};
+use crate::{Error, Listener, Ranks, RunOptions};
 
 /// A run that came to its end, was interrupted, or was stopped by its own guards: its results are in its
 /// folder.
@@ -65,4 +66,12 @@ pub fn run(options: &RunOptions, listener: &mut dyn Listener) -> Result<Ran, Err
     listener.folder(&folder);
     let summary = crate::run::run(&case, &options, &stop, &mut |progress| listener.run(progress));
     Ok(Ran { folder, summary: summary.map_err(|error| case.placed(error))? })
+}
+
+/// Shares the steps of the run of process 0, until they are done.
+///
+/// # Errors
+/// A mesh that cannot be made here, kernels or memory that are not here.
+pub fn assist(ranks: &Arc<dyn Ranks>, threads: Option<usize>) -> Result<(), Error> {
+    Ok(crate::run::assist(ranks, threads.unwrap_or_else(all_cores))?)
 }

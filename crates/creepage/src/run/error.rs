@@ -42,6 +42,22 @@ pub enum RunError {
     #[error(transparent)]
     #[diagnostic(help("{}", .0.remedy()))]
     Text(#[from] output::NotWritten),
+    /// A case that one process must run, under several.
+    #[error("{what} cannot be shared by several processes")]
+    #[diagnostic(help("run the case without mpirun, with --threads"))]
+    OneProcess {
+        /// What of the case.
+        what: &'static str,
+    },
+    /// Another of the processes that share a run cannot do its part.
+    #[error("another process of the run: {reason}")]
+    #[diagnostic(help(
+        "all machines need the same creepage, the files of the case and its memory"
+    ))]
+    Process {
+        /// What is wrong there.
+        reason: String,
+    },
     /// Threads cannot be started.
     #[error("threads cannot be started: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -69,6 +85,7 @@ impl RunError {
             Self::Scenario(error) => error.exit_code(),
             Self::Folder(_) | Self::Resume(_) | Self::NoContact => 2,
             Self::NoLaw | Self::UnusedLaw { .. } | Self::Threads(_) => 2,
+            Self::OneProcess { .. } | Self::Process { .. } => 2,
             Self::Output(error) if error.damaged().is_some() => 2,
             Self::Output(_) | Self::Text(_) => 3,
         }

@@ -21,6 +21,7 @@ use crate::run::held::FolderLock;
 use crate::run::log::Log;
 use crate::run::options::RunOptions;
 use crate::run::postmortem;
+use crate::run::processes::Leader;
 use crate::run::progress_lines;
 use crate::run::record::{RecordBasis, Recorder};
 use crate::run::resume::ResumePoint;
@@ -86,6 +87,10 @@ fn run_in_pool(
         (false, true) => return Err(RunError::UnusedLaw { law: law.declaration().word }),
         _ => {}
     }
+    let leader = options.leader.as_deref();
+    if leader.is_some() {
+        Leader::check(case)?;
+    }
     if case.is_half_space() {
         return half_space::run(case, options, wall, stop, observe);
     }
@@ -104,8 +109,8 @@ fn run_in_pool(
                 (*start, files.map(|files| *files), resumed)
             }
         };
-    let Start { simulation, facts } = start;
     let OpenRun { held, mut log, model, .. } = opened;
+    let Start { mut simulation, facts } = start;
     log_facts(&simulation, &facts, &mut log)?;
     if resumed.is_none() {
         let below = validation::below_the_step(case, simulation.dt());
@@ -126,6 +131,10 @@ fn run_in_pool(
     let recorder = Recorder::new(case, &model, &simulation, facts.radius.effective, files, &basis)?;
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     let position = model.position;
+    if let Some(leader) = leader {
+        log.say(&format!("processes: {}", leader.size()))?;
+        leader.share(case, options, &model, &facts, &mut simulation)?;
+    }
     drop(model); // the time loop has what it needs
 
     let mut rolling = TimeLoop::new(case, &facts, &held, simulation, recorder, wall);

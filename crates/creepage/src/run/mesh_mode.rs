@@ -128,16 +128,21 @@ impl WatchedFaces {
         }
     }
 
-    /// Adds the energies of the elements if a sample is due between `time - dt` and `time` (s), within the window.
+    /// Whether a sample of energy is due between `time - dt` and `time` (s).
+    pub(crate) fn samples(&self, [time, dt]: [f64; 2]) -> bool {
+        let sample = |time: f64| ((time - self.from) / self.interval).floor();
+        sample(time) != sample(time - dt)
+    }
+
+    /// Adds the energies of the elements if a sample is due between `at[0] - at[1]` and `at[0]` (s), within the window.
     pub(crate) fn energy(
         &self,
-        [time, dt]: [f64; 2],
+        at: [f64; 2],
         solid: &Solid,
         displacement: &[Padded],
         sums: &mut MeshModeSums,
     ) {
-        let sample = |time: f64| ((time - self.from) / self.interval).floor();
-        if sample(time) == sample(time - dt) {
+        if !self.samples(at) {
             return;
         }
         for &element in &self.layers {

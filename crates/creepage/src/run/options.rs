@@ -8,6 +8,8 @@ use crate::case::{Case, CaseSource};
 use crate::rule::THREADS;
 use crate::rule::all_cores;
 use crate::run::folder::default_folder;
+use crate::run::processes::Leader;
+use dynamics::Partition;
 use friction::OwnLaw;
 use serde::Deserialize;
 
@@ -43,6 +45,14 @@ pub struct RunOptions {
     #[serde(skip)]
     #[cfg_attr(feature = "clap", arg(skip))]
     pub law: Option<Arc<dyn OwnLaw>>,
+    /// The processes that share the steps of the run, of which this is the first; the others [`assist`](crate::assist) it.
+    #[serde(skip)]
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub leader: Option<Arc<Leader>>,
+    /// Which of them owns which nodes [default: equal work by bisection].
+    #[serde(skip)]
+    #[cfg_attr(feature = "clap", arg(skip))]
+    pub partition: Option<Partition>,
 }
 
 impl RunOptions {

@@ -147,10 +147,20 @@ impl Recorder {
         self.contact.reads(n)
     }
 
+    /// Whether a snapshot of the fields is due at `time` (s), of both bodies.
+    pub(crate) fn writes_fields(&self, time: f64) -> bool {
+        time >= self.fields.next
+    }
+
+    /// Whether the energies of elements are sampled after the step `dt` from `time` (s).
+    pub(crate) fn reads_bodies(&self, time: f64, dt: f64) -> bool {
+        self.mesh_mode.samples([time, dt])
+    }
+
     /// To be called with the state at t^n, before the step moves it on.
     pub(crate) fn before_step(&mut self, simulation: &Simulation) -> Result<(), RunError> {
         let clock = Instant::now();
-        if simulation.time() >= self.fields.next {
+        if self.writes_fields(simulation.time()) {
             self.write_fields(simulation)?;
             self.fields.advance(simulation.time());
         }

@@ -5,7 +5,7 @@
 //! of the hub along z and about its axle, where forces decide on them.
 
 use crate::load::Fixed;
-use crate::nodal_state::{CHUNK, NodalState};
+use crate::nodal_state::{NodalState, TASK};
 use crate::paired;
 use crate::system::System;
 use mesh::Padded;
@@ -220,9 +220,9 @@ impl LinearSystem<Vectors> for StepMatrix<'_> {
         let Operator { frame, eta, answer, dashpots, free, mass, .. } = &**operator;
         let stiff = frame.lead + eta;
         let per_lead = 1.0 / frame.lead;
-        let arrays = y.nodes.par_chunks_mut(CHUNK).zip(x.nodes.par_chunks(CHUNK));
-        let arrays = arrays.zip(answer.par_chunks(CHUNK).zip(dashpots.par_chunks(CHUNK)));
-        arrays.zip(nodes.inverse_mass.par_chunks(CHUNK)).for_each(|(((y, x), (f, c)), w)| {
+        let arrays = y.nodes.par_chunks_mut(TASK).zip(x.nodes.par_chunks(TASK));
+        let arrays = arrays.zip(answer.par_chunks(TASK).zip(dashpots.par_chunks(TASK)));
+        arrays.zip(nodes.inverse_mass.par_chunks(TASK)).for_each(|(((y, x), (f, c)), w)| {
             for ((((y, x), f), c), w) in y.iter_mut().zip(x).zip(f).zip(c).zip(w) {
                 let mass = if *w > 0.0 { per_lead / w } else { 0.0 };
                 for i in 0..3 {
@@ -247,8 +247,8 @@ impl LinearSystem<Vectors> for StepMatrix<'_> {
     fn precondition(&mut self, r: &Vectors, z: &mut Vectors) -> f64 {
         let Operator { inverse, hub_inverse, free, .. } = &*self.operator;
         z.nodes
-            .par_chunks_mut(CHUNK)
-            .zip(r.nodes.par_chunks(CHUNK).zip(inverse.par_chunks(CHUNK)))
+            .par_chunks_mut(TASK)
+            .zip(r.nodes.par_chunks(TASK).zip(inverse.par_chunks(TASK)))
             .for_each(|(z, (r, d))| {
                 for (z, (r, d)) in z.iter_mut().zip(r.iter().zip(d)) {
                     *z = Padded([r[0] * d[0], r[1] * d[1], r[2] * d[2], 0.0]);

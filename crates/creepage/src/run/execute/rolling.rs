@@ -101,8 +101,11 @@ impl<'a> TimeLoop<'a> {
         for n in first..steps {
             let stops = stop.load(Ordering::Relaxed);
             // a state that the guards are about to stop must not replace a good checkpoint
-            if (stops || clock.is_due(n)) && self.simulation.is_sound() {
-                self.keep(basis)?;
+            if stops || clock.is_due(n) {
+                self.simulation.gather();
+                if self.simulation.is_sound() {
+                    self.keep(basis)?;
+                }
             }
             if stops {
                 return Ok(Stopped { status: Status::Interrupted, diagnosis: None, guard: None });
@@ -110,6 +113,9 @@ impl<'a> TimeLoop<'a> {
             let moved = self.simulation.move_window().map_err(ScenarioError::from)?;
             if let Some(Moved { lost: lost @ 1.. }) = moved {
                 return Ok(self.left_behind(lost));
+            }
+            if self.recorder.writes_fields(self.simulation.time()) {
+                self.simulation.gather();
             }
             self.recorder.before_step(&self.simulation)?;
             let due = self.recorder.reads(n) || n + 1 == steps || n.is_multiple_of(READING);
@@ -125,6 +131,9 @@ impl<'a> TimeLoop<'a> {
                 return Ok(Stopped { status: Status::Failed, diagnosis, guard: Some(guard) });
             }
             self.energies = report.energies.unwrap_or(self.energies);
+            if self.recorder.reads_bodies(report.time, self.simulation.dt()) {
+                self.simulation.gather();
+            }
             self.recorder.after_step(&self.simulation, &report)?;
             observer.after_step(n, || self.progress(n - first, &report));
         }
@@ -179,7 +188,8 @@ impl<'a> TimeLoop<'a> {
     }
 
     /// Closes the files.
-    pub(super) fn end(self) -> Result<FinishedRun, RunError> {
+    pub(super) fn end(mut self) -> Result<FinishedRun, RunError> {
+        self.simulation.gather();
         let rolling = self.before[1] + self.since[1].elapsed();
         self.held.check_owner()?;
         let (means, output) = self.recorder.finish(&self.simulation)?;

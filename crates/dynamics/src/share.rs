@@ -1,0 +1,386 @@
+//! The share of one process of a simulation that several processes step together.
+//!
+//! Each process holds all arrays, and owns some of the nodes: it computes every element that touches one of them, in the order of
+//! the whole, so that the forces on its nodes have the bits of one process alone. Velocities of the nodes that its elements have
+//! besides come from their owners after every step, and displacements follow from them as they do there. Sums
+//! are exact, and travel so. Process 0 has the contact: the others send it the forces on their nodes of both surfaces, and it
+//! sends those that contact loads back with the forces of contact. It also leads: the others do what it tells them.
+
+use crate::nodal_state::NodalState;
+use crate::partition::{CHUNK, Partition};
+use crate::ranks::{Message, Ranks};
+use crate::simulation::Simulation;
+use crate::step_sums::StepSums;
+use crate::system::System;
+use contact::Contact;
+use exact_sum::ExactSum;
+use mesh::Padded;
+use std::sync::Arc;
+
+/// What process 0 tells the others to do.
+const STEP: u64 = 1;
+const STEP_AND_READ: u64 = 2;
+const GATHER: u64 = 3;
+const END: u64 = 4;
+
+/// A share of the nodes, and what travels between it and the others.
+pub(crate) struct Share {
+    ranks: Arc<dyn Ranks>,
+    partition: Partition,
+    chunks: Chunks,
+    /// Nodes of its elements that others own.
+    foreign: Vec<u32>,
+    /// Velocities after a step.
+    halo: Mail,
+    /// Of the nodes of the contact surfaces that others than process 0 own: forces to it, and back.
+    surface: Mail,
+    /// Of the nodes of the contact surfaces, whether a message has them already.
+    noted: Vec<bool>,
+    /// Whether this process has all displacements and velocities.
+    complete: bool,
+    words: Vec<i64>,
+}
+
+/// The chunks of a process, in the order in which it advances them.
+struct Chunks {
+    /// While contact is elsewhere: those without nodes of its surfaces.
+    beside_contact: Vec<bool>,
+    /// Then those that others read.
+    read_by_others: Vec<bool>,
+    /// While their velocities travel: the others.
+    beside_halo: Vec<bool>,
+}
+
+/// Numbers of a message of vectors, and of one of [`write_loaded`], by its nodes.
+const VECTORS: fn(usize) -> usize = |nodes| 3 * nodes;
+const LOADED: fn(usize) -> usize = |nodes| 1 + 4 * nodes;
+
+/// Messages, and the nodes that each is of.
+#[derive(Default)]
+struct Mail {
+    out: Vec<Message>,
+    sent: Vec<Vec<u32>>,
+    into: Vec<Message>,
+    received: Vec<Vec<u32>>,
+}
+
+impl Mail {
+    /// Messages of these nodes to and from each process, where there are any, with room for as many numbers as `rooms` says of so
+    /// many nodes.
+    fn new(sent: Vec<Vec<u32>>, received: Vec<Vec<u32>>, rooms: [fn(usize) -> usize; 2]) -> Self {
+        let both = [(sent, rooms[0]), (received, rooms[1])];
+        let [(sent, out), (received, into)] = both.map(|(nodes, room)| {
+            let any = nodes.into_iter().enumerate().filter(|(_, nodes)| !nodes.is_empty());
+            let with_room = |(rank, nodes): (usize, Vec<u32>)| {
+                let numbers = vec![0.0; room(nodes.len())];
+                (nodes, Message { rank, numbers })
+            };
+            any.map(with_room).unzip()
+        });
+        Self { out, sent, into, received }
+    }
+}
+
+impl Share {
+    /// Takes the share of this process of the system and of its nodes; the others must do so at the same time.
+    fn new(
+        ranks: Arc<dyn Ranks>,
+        partition: Partition,
+        system: &mut System,
+        nodes: &mut NodalState,
+    ) -> Self {
+        let me = ranks.rank();
+        let count = nodes.inverse_mass.len();
+        let own = |node: u32| partition.owner(node) == me;
+        system.solid.take_share(own);
+        let trace = system.contact.as_deref().map(|contact| contact.trace());
+        let mut touched = vec![false; count];
+        let read = trace.filter(|_| me == 0).into_iter().flat_map(|trace| trace.read());
+        system.solid.nodes_of_share().chain(read).for_each(|n| touched[n as usize] = true);
+        let foreign: Vec<u32> =
+            (0..count as u32).filter(|&node| touched[node as usize] && !own(node)).collect();
+
+        // every process places the nodes of the hub itself
+        let mut carried = vec![false; count];
+        system.hub.iter().flat_map(|hub| &hub.nodes).for_each(|&n| carried[n as usize] = true);
+        let wanted = by_owner(&partition, ranks.size(), foreign.iter().copied());
+        let wanted = wanted.into_iter().map(|mut nodes| {
+            nodes.retain(|&node| !carried[node as usize]);
+            nodes
+        });
+        let wanted: Vec<_> = wanted.collect();
+        let halo = Mail::new(asked_of(&*ranks, &wanted), wanted, [VECTORS; 2]);
+
+        let surfaces = trace.map_or(&[][..], |trace| trace.nodes());
+        let mut on_surface = by_owner(&partition, ranks.size(), surfaces.iter().copied());
+        on_surface[0].clear();
+        let surface = if me == 0 {
+            Mail::new(on_surface.clone(), on_surface, [LOADED, VECTORS])
+        } else {
+            let mine = || vec![on_surface[me].clone()];
+            Mail::new(mine(), mine(), [VECTORS, LOADED])
+        };
+
+        let chunks = Chunks::new(&partition, me, halo.sent.iter().flatten(), surfaces);
+        let noted = vec![false; surfaces.len()];
+        if me != 0 {
+            (system.contact, nodes.trace) = (None, None);
+        }
+        let words = vec![0; StepSums::WORDS];
+        Self { chunks, foreign, halo, surface, noted, complete: true, words, partition, ranks }
+    }
+
+    fn leads(&self) -> bool {
+        self.ranks.rank() == 0
+    }
+
+    /// Whether it owns a node.
+    pub(crate) fn owns(&self, node: u32) -> bool {
+        self.partition.owner(node) == self.ranks.rank()
+    }
+
+    /// To be called before a step.
+    pub(crate) fn begin_step(&mut self, read: bool) {
+        if self.leads() {
+            self.ranks.tell(if read { STEP_AND_READ } else { STEP });
+        }
+        self.complete = false;
+    }
+
+    /// Before contact: the forces on the nodes of its surfaces, on their way to process 0, and there.
+    pub(crate) fn send_forces(&mut self, force: &mut [Padded]) {
+        let Mail { out, sent, into, received } = &mut self.surface;
+        if self.ranks.rank() != 0 {
+            for (message, nodes) in out.iter_mut().zip(sent) {
+                let numbers = nodes.iter().flat_map(|&node| force[node as usize].xyz());
+                message.numbers.iter_mut().zip(numbers).for_each(|(to, f)| *to = f);
+            }
+            return;
+        }
+        self.ranks.exchange(&[], into, &mut || ());
+        for (message, nodes) in into.iter().zip(received) {
+            for (f, &node) in message.numbers.as_chunks::<3>().0.iter().zip(&*nodes) {
+                force[node as usize] = Padded::new(*f);
+            }
+        }
+    }
+
+    /// Has `advance` advance the nodes, chunk by chunk: those on the surfaces once contact has loaded them. Brings their velocities
+    /// to those who read them, whose displacements follow from them in a step `dt` (s).
+    pub(crate) fn advance(
+        &mut self,
+        nodes: &mut NodalState,
+        contact: Option<&dyn Contact>,
+        dt: f64,
+        advance: impl Fn(&mut NodalState, &[bool]),
+    ) {
+        let Chunks { beside_contact, read_by_others, beside_halo } = &self.chunks;
+        if let Some(contact) = contact {
+            write_loaded(
+                &mut self.surface,
+                &mut self.noted,
+                &self.partition,
+                contact,
+                &nodes.force,
+            );
+            self.ranks.exchange(&self.surface.out, &mut [], &mut || ());
+            advance(nodes, beside_contact);
+        } else {
+            let Mail { out, into, .. } = &mut self.surface;
+            self.ranks.exchange(out, into, &mut || advance(nodes, beside_contact));
+            into.iter().for_each(|message| take_loaded(message, &mut nodes.force));
+        }
+        advance(nodes, read_by_others);
+        let Mail { out, sent, into, received } = &mut self.halo;
+        for (message, sent) in out.iter_mut().zip(sent) {
+            let velocities = sent.iter().flat_map(|&n| nodes.velocity[n as usize].xyz());
+            message.numbers.iter_mut().zip(velocities).for_each(|(to, v)| *to = v);
+        }
+        self.ranks.exchange(out, into, &mut || advance(nodes, beside_halo));
+        for (message, received) in into.iter().zip(received) {
+            for (v, &node) in message.numbers.as_chunks::<3>().0.iter().zip(&*received) {
+                let (u, v) = (&mut nodes.displacement[node as usize], Padded::new(*v));
+                (0..3).for_each(|i| u.0[i] += dt * v.0[i]);
+                nodes.velocity[node as usize] = v;
+            }
+        }
+        self.foreign.iter().for_each(|&node| nodes.force[node as usize] = Padded::ZERO);
+    }
+
+    /// The sums over all processes.
+    pub(crate) fn add_up(&mut self, sums: &mut StepSums) {
+        sums.write_words(&mut self.words);
+        self.ranks.add(&mut self.words);
+        sums.take_words(&self.words);
+    }
+
+    /// A sum over all processes.
+    pub(crate) fn add_up_one(&self, sum: &mut ExactSum) {
+        let mut words = sum.words();
+        self.ranks.add(&mut words);
+        *sum = ExactSum::of_words(&words);
+    }
+
+    /// Brings displacements and velocities of all nodes to process 0.
+    fn gather(&mut self, nodes: &mut NodalState) {
+        if self.complete {
+            return;
+        }
+        if self.leads() {
+            self.ranks.tell(GATHER);
+        }
+        let (count, partition) = (nodes.inverse_mass.len(), &self.partition);
+        let owned_by = |rank: usize| (0..count).filter(move |&n| partition.owner(n as u32) == rank);
+        let (mut out, mut into) = (Vec::new(), Vec::new());
+        if self.leads() {
+            let message = |rank| Message { rank, numbers: vec![0.0; 6 * owned_by(rank).count()] };
+            into = (1..self.ranks.size()).map(message).collect();
+        } else {
+            let motion = |n: usize| [nodes.displacement[n].xyz(), nodes.velocity[n].xyz()].concat();
+            let numbers = owned_by(self.ranks.rank()).flat_map(motion).collect();
+            out = vec![Message { rank: 0, numbers }];
+        }
+        self.ranks.exchange(&out, &mut into, &mut || ());
+        for message in &into {
+            let motions = message.numbers.as_chunks::<6>().0;
+            for (n, &[x, y, z, vx, vy, vz]) in owned_by(message.rank).zip(motions) {
+                nodes.displacement[n] = Padded::new([x, y, z]);
+                nodes.velocity[n] = Padded::new([vx, vy, vz]);
+            }
+        }
+        self.complete = true;
+    }
+}
+
+impl Drop for Share {
+    fn drop(&mut self) {
+        if self.leads() {
+            self.ranks.tell(END);
+        }
+    }
+}
+
+impl Chunks {
+    /// Those of process `me`, of whose nodes others read `read`, and some are on contact's `surfaces`.
+    fn new<'a>(
+        partition: &Partition,
+        me: usize,
+        read: impl Iterator<Item = &'a u32>,
+        surfaces: &[u32],
+    ) -> Self {
+        let own: Vec<bool> = partition.owners.iter().map(|&owner| owner as usize == me).collect();
+        let [mut on_surface, mut read_by_others] = [vec![false; own.len()], vec![false; own.len()]];
+        read.for_each(|&node| read_by_others[node as usize / CHUNK] = true);
+        surfaces.iter().for_each(|&node| on_surface[node as usize / CHUNK] = true);
+        let chosen = |of: &dyn Fn(usize) -> bool| (0..own.len()).map(|c| own[c] && of(c)).collect();
+        Self {
+            beside_contact: chosen(&|c| !on_surface[c] && !read_by_others[c]),
+            beside_halo: chosen(&|c| on_surface[c] && !read_by_others[c]),
+            read_by_others: chosen(&|c| read_by_others[c]),
+        }
+    }
+}
+
+/// Nodes by the process that owns them.
+fn by_owner(
+    partition: &Partition,
+    processes: usize,
+    nodes: impl Iterator<Item = u32>,
+) -> Vec<Vec<u32>> {
+    let mut of_each = vec![Vec::new(); processes];
+    nodes.for_each(|node| of_each[partition.owner(node)].push(node));
+    of_each
+}
+
+/// Writes the nodes that contact has loaded into the messages to their owners: how many, then of each its number and its force.
+fn write_loaded(
+    surface: &mut Mail,
+    noted: &mut [bool],
+    partition: &Partition,
+    contact: &dyn Contact,
+    force: &[Padded],
+) {
+    for message in &mut surface.out {
+        let numbers = &mut message.numbers;
+        numbers.clear();
+        numbers.push(0.0);
+        // some come more than once
+        for &loaded in contact.loaded() {
+            let node = contact.trace().in_mesh(loaded);
+            if partition.owner(node) == message.rank
+                && !std::mem::replace(&mut noted[loaded as usize], true)
+            {
+                let [x, y, z] = force[node as usize].xyz();
+                numbers.extend([f64::from(node), x, y, z]);
+            }
+        }
+        contact.loaded().iter().for_each(|&loaded| noted[loaded as usize] = false);
+        numbers[0] = ((numbers.len() - 1) / 4) as f64;
+    }
+}
+
+/// Takes the forces that a message of [`write_loaded`] holds.
+fn take_loaded(message: &Message, force: &mut [Padded]) {
+    if let [count, loaded @ ..] = &message.numbers[..] {
+        for &[node, x, y, z] in loaded.as_chunks::<4>().0.iter().take(*count as usize) {
+            force[node as usize] = Padded::new([x, y, z]);
+        }
+    }
+}
+
+/// The nodes that each process wants from this one, which wants `wanted` from them.
+fn asked_of(ranks: &dyn Ranks, wanted: &[Vec<u32>]) -> Vec<Vec<u32>> {
+    let others = || (0..ranks.size()).filter(|&rank| rank != ranks.rank());
+    let message = |rank: usize, numbers| Message { rank, numbers };
+    let out: Vec<_> = others().map(|r| message(r, vec![wanted[r].len() as f64])).collect();
+    let mut counts: Vec<_> = others().map(|r| message(r, vec![0.0])).collect();
+    ranks.exchange(&out, &mut counts, &mut || ());
+    let numbers = |nodes: &[u32]| nodes.iter().map(|&n| f64::from(n)).collect();
+    let out: Vec<_> = others().map(|r| message(r, numbers(&wanted[r]))).collect();
+    let room = |m: &Message| message(m.rank, vec![0.0; m.numbers[0] as usize]);
+    let mut into: Vec<_> = counts.iter().map(room).collect();
+    ranks.exchange(&out, &mut into, &mut || ());
+    let mut asked = vec![Vec::new(); ranks.size()];
+    for message in into {
+        asked[message.rank] = message.numbers.iter().map(|&n| n as u32).collect();
+    }
+    asked
+}
+
+impl Simulation {
+    /// From now on takes the share of this process of the steps, by `partition`. All processes must be in the same state. Process 0 goes on
+    /// as if it were alone; the others [assist](Self::assist).
+    ///
+    /// The contact must not have paired nodes, the mesh not follow the patch, the steps be explicit.
+    pub fn take_share(&mut self, ranks: Arc<dyn Ranks>, partition: Partition) {
+        self.share = Some(Share::new(ranks, partition, &mut self.system, &mut self.nodes));
+    }
+
+    /// Does as process 0 tells, until that ends its simulation.
+    pub fn assist(&mut self) {
+        loop {
+            match self.share.as_ref().map(|share| share.ranks.tell(0)) {
+                Some(STEP) => drop(self.step(false)),
+                Some(STEP_AND_READ) => drop(self.step(true)),
+                Some(GATHER) => self.gather(),
+                _ => return,
+            }
+        }
+    }
+
+    /// Brings displacements and velocities of all nodes to process 0. Between steps it has those of its own elements and of
+    /// both contact surfaces.
+    pub fn gather(&mut self) {
+        if let Some(share) = &mut self.share {
+            share.gather(&mut self.nodes);
+        }
+    }
+
+    /// The same, and its elements are all of them again: for what is found at the end of a run.
+    pub(crate) fn gather_for_good(&mut self) {
+        self.gather();
+        if self.share.is_some() {
+            self.system.solid.take_all();
+        }
+    }
+}
