@@ -5,6 +5,9 @@
 mod args;
 mod commands;
 mod manual;
+#[cfg(feature = "mpi")]
+mod mpi;
+mod processes;
 mod progress;
 mod render;
 mod report;
@@ -24,22 +27,39 @@ use tracing_subscriber::filter::LevelFilter;
 
 use args::Args;
 use commands::Line;
+use processes::Process;
 
 /// Runs the command that `words` write, the first of which is the program's name, for the terminal; returns
 /// the exit code.
 pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<_> = words.into_iter().collect();
+    let process = Process::of_several();
+    let speaks = process.is_none_or(Process::speaks);
     let mut line = match Line::try_parse_from(&words) {
         Ok(line) => line,
+        Err(_) if !speaks => return BAD_INPUT,
         Err(error) => return usage(&error, &words),
     };
     let args = &line.args;
     set_up_messages(args);
     let json = args.json;
+    if let Some(process) = process
+        && !speaks
+    {
+        return stop::leave_to_the_first()
+            .map_or_else(show_error, |()| process.assist(&line.command));
+    }
     let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(json));
     let done = done.and_then(|stop| {
+        let world = process.map(|process| process.join(&line.command)).transpose()?;
+        if let Some(world) = &world {
+            world.lead(&mut line.command);
+        }
         line.args.stop = stop;
-        commands::dispatch(&line)
+        let done = commands::dispatch(&line);
+        // the others end before their world does
+        drop(line);
+        done
     });
     printed(done.unwrap_or_else(|error| {
         if json {

@@ -87,6 +87,12 @@ impl Stop {
     }
 }
 
+/// A process that assists another ends when that does, whatever signal asks both.
+pub fn leave_to_the_first() -> Result<(), Error> {
+    listen(|| ())
+        .map_err(|error| Error::System(format!("the handler of Ctrl-C cannot be set: {error}")))
+}
+
 /// Calls `ask` at every signal that asks the program to end.
 ///
 /// A signal that was ignored when the program started stays ignored: this is how `nohup`, `trap '' HUP` and a script's
