@@ -14,7 +14,7 @@ use crate::step::{
 use crate::{book, book_test, markdown, results, sources, structure, wheel};
 
 /// The steps, cheapest first.
-pub const STEPS: [(&str, Step); 20] = [
+pub const STEPS: [(&str, Step); 21] = [
     ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
     ("links", |root| without(&markdown::broken(root))),
     ("spelling", sources::spelling),
@@ -26,6 +26,7 @@ pub const STEPS: [(&str, Step); 20] = [
     ("schema", schema),
     ("smoke run", smoke_run),
     ("libhdf5", libhdf5),
+    ("shared runs", shared_runs),
     ("tables of the documents", results::step),
     ("report page", report_page),
     ("sweep through Dask", |root| with_program(root, "check_dask.py")),
@@ -39,8 +40,13 @@ pub const STEPS: [(&str, Step); 20] = [
 ];
 
 /// The parts of the continuous integration that alone make these steps; all others are made by all.
-const IN_TURN: [(&str, [usize; 2]); 4] =
-    [("documentation", [0, 4]), ("other machines", [1, 3]), ("libhdf5", [0, 3]), ("book", [2, 5])];
+const IN_TURN: [(&str, [usize; 2]); 5] = [
+    ("documentation", [0, 4]),
+    ("other machines", [1, 3]),
+    ("libhdf5", [0, 3]),
+    ("shared runs", [4, 4]),
+    ("book", [2, 5]),
+];
 
 /// Runs the steps with these names, all if there are none, up to the first that fails, and reports on each.
 pub fn validate(names: &[String]) -> ExitCode {
@@ -103,7 +109,7 @@ fn tests(root: &Path) -> Ended {
 /// Modules of tests, and tests, that take from seconds to a minute each: whole runs, planted errors, kills.
 const LONG: &str = "
     checkpoint contact_layers damage determinism disk exact friction_laws half_model half_space nearly_incompressible
-    own_mu plane_strain planted preload resume sideways slider stopped sweep terminal window
+    own_mu plane_strain planted preload ranks resume sideways slider stopped sweep terminal window
     a_grid_cut_off_and_continued_holds_what_one_written_at_once_holds
     figures::reference::tests::steady_rolling_of_half_spaces_is_that_of_contact
     tests::implicit::elastic_energy_is_kept_with_theta_one_half_and_lost_with_theta_one_as_booked
@@ -157,6 +163,15 @@ fn libhdf5(root: &Path) -> Ended {
     let test =
         "test --release --workspace --features creepage-output/libhdf5 --test libhdf5 -- --ignored";
     cargo(root, &test.split(' ').collect::<Vec<_>>(), &[("CREEPAGE_RUN", &run)])
+}
+
+/// Has processes of MPI share runs, and compares their files with those of one. Machines without MPI skip this.
+fn shared_runs(root: &Path) -> Ended {
+    if Command::new("mpirun").arg("--version").output().is_err() {
+        return skipped("there is no mpirun (Debian: libopenmpi-dev, libclang-dev); shared runs");
+    }
+    let test = "test --release --workspace --features creepage/mpi --test processes";
+    cargo(root, &test.split(' ').collect::<Vec<_>>(), &[])
 }
 
 /// Has a browser render the report of the smoke run. Machines without one skip this: that pages are

@@ -20,6 +20,10 @@ pub struct NotAsWanted {
 pub const THREADS: Rule<usize> =
     Rule { holds: |n| (1..=1024).contains(n), wanted: "a whole number from 1 to 1024 is needed" };
 
+/// Processes that share a run.
+pub const RANKS: Rule<usize> =
+    Rule { holds: |n| (2..=65536).contains(n), wanted: "a whole number from 2 to 65536 is needed" };
+
 /// As many threads as there are cores.
 pub fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get())

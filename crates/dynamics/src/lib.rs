@@ -49,6 +49,7 @@ pub use ramp::{interpolated, smoothstep};
 pub use ranks::{Message, Ranks};
 pub use relax::{Relaxation, RelaxationError, RelaxationReport, relax};
 pub use rolling::{RollingField, rolling_field, rolling_field_of_unlike};
+pub use share::{ShareSize, share_sizes};
 pub use sideways::Sideways;
 pub use simulation::{Setup, Simulation, StepReport, Timers};
 pub use state::{RestoreError, SimulationState};

@@ -12,9 +12,10 @@ use crate::ranks::{Message, Ranks};
 use crate::simulation::Simulation;
 use crate::step_sums::StepSums;
 use crate::system::System;
-use contact::Contact;
+use contact::{Contact, Trace};
 use exact_sum::ExactSum;
 use mesh::Padded;
+use solid::Solid;
 use std::sync::Arc;
 
 /// What process 0 tells the others to do.
@@ -91,24 +92,12 @@ impl Share {
     ) -> Self {
         let me = ranks.rank();
         let count = nodes.inverse_mass.len();
-        let own = |node: u32| partition.owner(node) == me;
-        system.solid.take_share(own);
         let trace = system.contact.as_deref().map(|contact| contact.trace());
-        let mut touched = vec![false; count];
-        let read = trace.filter(|_| me == 0).into_iter().flat_map(|trace| trace.read());
-        system.solid.nodes_of_share().chain(read).for_each(|n| touched[n as usize] = true);
-        let foreign: Vec<u32> =
-            (0..count as u32).filter(|&node| touched[node as usize] && !own(node)).collect();
-
+        let foreign = take_elements(&mut system.solid, &partition, me, trace);
         // every process places the nodes of the hub itself
-        let mut carried = vec![false; count];
-        system.hub.iter().flat_map(|hub| &hub.nodes).for_each(|&n| carried[n as usize] = true);
-        let wanted = by_owner(&partition, ranks.size(), foreign.iter().copied());
-        let wanted = wanted.into_iter().map(|mut nodes| {
-            nodes.retain(|&node| !carried[node as usize]);
-            nodes
-        });
-        let wanted: Vec<_> = wanted.collect();
+        let carried = carried(count, system.hub.iter().flat_map(|hub| &hub.nodes));
+        let travelling = foreign.iter().copied().filter(|&node| !carried[node as usize]);
+        let wanted = by_owner(&partition, ranks.size(), travelling);
         let halo = Mail::new(asked_of(&*ranks, &wanted), wanted, [VECTORS; 2]);
 
         let surfaces = trace.map_or(&[][..], |trace| trace.nodes());
@@ -128,6 +117,24 @@ impl Share {
         }
         let words = vec![0; StepSums::WORDS];
         Self { chunks, foreign, halo, surface, noted, complete: true, words, partition, ranks }
+    }
+
+    /// What each process does and sends.
+    fn sizes(&self, solid: &Solid, nodes: usize) -> Vec<ShareSize> {
+        let (me, processes) = (self.ranks.rank(), self.ranks.size());
+        let owned = (0..nodes as u32).filter(|&node| self.owns(node)).count();
+        let numbers: usize =
+            self.halo.out.iter().chain(&self.surface.out).map(|m| m.numbers.len()).sum();
+        let mut words = vec![0; 3 * processes];
+        let mine = [owned, solid.elements_of_share(), size_of::<f64>() * numbers];
+        words[3 * me..][..3].copy_from_slice(&mine.map(|n| n as i64));
+        self.ranks.add(&mut words);
+        let size = |&[nodes, elements, sent]: &[i64; 3]| ShareSize {
+            nodes: nodes as usize,
+            elements: elements as usize,
+            sent: sent as usize,
+        };
+        words.as_chunks().0.iter().map(size).collect()
     }
 
     fn leads(&self) -> bool {
@@ -281,6 +288,70 @@ impl Chunks {
     }
 }
 
+/// Has the elements be those of the nodes of process `rank`; returns their nodes that others own, and those of contact's
+/// surfaces besides where that is the first.
+fn take_elements(
+    solid: &mut Solid,
+    partition: &Partition,
+    rank: usize,
+    surfaces: Option<&Trace>,
+) -> Vec<u32> {
+    let own = |node: u32| partition.owner(node) == rank;
+    solid.take_share(own);
+    let mut touched = vec![false; solid.reference().len()];
+    let read = surfaces.filter(|_| rank == 0).into_iter().flat_map(|trace| trace.read());
+    solid.nodes_of_share().chain(read).for_each(|n| touched[n as usize] = true);
+    (0..touched.len() as u32).filter(|&node| touched[node as usize] && !own(node)).collect()
+}
+
+/// Of so many nodes, whether each is among those of a hub.
+fn carried<'a>(nodes: usize, hub: impl Iterator<Item = &'a u32>) -> Vec<bool> {
+    let mut carried = vec![false; nodes];
+    hub.for_each(|&n| carried[n as usize] = true);
+    carried
+}
+
+/// What a process does and sends in a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ShareSize {
+    /// Nodes that it owns.
+    pub nodes: usize,
+    /// Elements that it computes, some of them others too.
+    pub elements: usize,
+    /// Bytes of velocities and of forces on contact's surfaces that it sends; of what contact loads the most that may be.
+    pub sent: usize,
+}
+
+/// What each of so many processes would do and send by `partition`, where the hub carries the nodes `hub`, and contact is of
+/// `surfaces`.
+pub fn share_sizes(
+    solid: &mut Solid,
+    partition: &Partition,
+    processes: usize,
+    hub: &[u32],
+    surfaces: &Trace,
+) -> Vec<ShareSize> {
+    let nodes = solid.reference().len();
+    let carried = carried(nodes, hub.iter());
+    let owned = by_owner(partition, processes, 0..nodes as u32);
+    let on_surface = by_owner(partition, processes, surfaces.nodes().iter().copied());
+    let mut sizes = vec![ShareSize::default(); processes];
+    for rank in 0..processes {
+        let foreign = take_elements(solid, partition, rank, Some(surfaces));
+        sizes[rank].nodes = owned[rank].len();
+        sizes[rank].elements = solid.elements_of_share();
+        for &node in foreign.iter().filter(|&&node| !carried[node as usize]) {
+            sizes[partition.owner(node)].sent += size_of::<f64>() * VECTORS(1);
+        }
+        if rank > 0 && !on_surface[rank].is_empty() {
+            sizes[rank].sent += size_of::<f64>() * VECTORS(on_surface[rank].len());
+            sizes[0].sent += size_of::<f64>() * LOADED(on_surface[rank].len());
+        }
+    }
+    solid.take_all();
+    sizes
+}
+
 /// Nodes by the process that owns them.
 fn by_owner(
     partition: &Partition,
@@ -348,12 +419,15 @@ fn asked_of(ranks: &dyn Ranks, wanted: &[Vec<u32>]) -> Vec<Vec<u32>> {
 }
 
 impl Simulation {
-    /// From now on takes the share of this process of the steps, by `partition`. All processes must be in the same state. Process 0 goes on
+    /// From now on takes the share of this process of the steps, by `partition`; returns what each process does. All processes must be in the same state. Process 0 goes on
     /// as if it were alone; the others [assist](Self::assist).
     ///
     /// The contact must not have paired nodes, the mesh not follow the patch, the steps be explicit.
-    pub fn take_share(&mut self, ranks: Arc<dyn Ranks>, partition: Partition) {
-        self.share = Some(Share::new(ranks, partition, &mut self.system, &mut self.nodes));
+    pub fn take_share(&mut self, ranks: Arc<dyn Ranks>, partition: Partition) -> Vec<ShareSize> {
+        let share = Share::new(ranks, partition, &mut self.system, &mut self.nodes);
+        let sizes = share.sizes(&self.system.solid, self.nodes.inverse_mass.len());
+        self.share = Some(share);
+        sizes
     }
 
     /// Does as process 0 tells, until that ends its simulation.

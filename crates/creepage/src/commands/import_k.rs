@@ -66,7 +66,7 @@ pub fn import_k(options: &ImportKOptions) -> Result<ImportedK, Error> {
     write(&folder, &mesh, &made.mesh)?;
     write(&folder, &case, &made.case)?;
     // the case is judged as any other, so that what is wrong is told now
-    let found = crate::run::mesh_report(&Case::load(&case, &[])?, None)?;
+    let found = crate::run::mesh_report(&Case::load(&case, &[])?, None, None)?;
     let (elements, notes, cards) = (found.elements, made.notes, made.cards);
     Ok(ImportedK { case, mesh, elements, notes, cards })
 }

@@ -132,8 +132,7 @@ fn run_in_pool(
     let (elements, nodes) = (model.mesh.hexes.len(), model.mesh.nodes.len());
     let position = model.position;
     if let Some(leader) = leader {
-        log.say(&format!("processes: {}", leader.size()))?;
-        leader.share(case, options, &model, &facts, &mut simulation)?;
+        leader.share(case, options, &model, &facts, &mut simulation, &mut log)?;
     }
     drop(model); // the time loop has what it needs
 

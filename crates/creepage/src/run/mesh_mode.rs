@@ -128,10 +128,10 @@ impl WatchedFaces {
         }
     }
 
-    /// Whether a sample of energy is due between `time - dt` and `time` (s).
+    /// Whether a sample of energy is due between `time - dt` and `time` (s), not before the window.
     pub(crate) fn samples(&self, [time, dt]: [f64; 2]) -> bool {
         let sample = |time: f64| ((time - self.from) / self.interval).floor();
-        sample(time) != sample(time - dt)
+        time >= self.from && sample(time) != sample(time - dt)
     }
 
     /// Adds the energies of the elements if a sample is due between `at[0] - at[1]` and `at[0]` (s), within the window.

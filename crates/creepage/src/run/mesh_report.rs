@@ -8,6 +8,7 @@ use crate::run::disk::{Disk, DiskEstimate};
 use crate::run::error::RunError;
 use crate::run::folder::default_folder;
 use crate::run::mesh_file::write_mesh;
+use crate::run::processes::{Balance, Leader};
 use crate::scenario::memory::BYTES_PER_ELEMENT;
 use crate::scenario::numbers::numbers;
 use crate::scenario::wheel_on_rail::PositionReport;
@@ -43,6 +44,9 @@ pub struct MeshReport {
     pub stable_dt: StableStep,
     /// What a run takes.
     pub estimate: Estimate,
+    /// How several processes would share a run, if that was asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub balance: Option<Balance>,
 }
 
 /// A body of a mesh.
@@ -104,12 +108,20 @@ pub struct Estimate {
 }
 
 /// Builds the mesh of a case, writes it to `out` if given (`.vtu` or `.msh` by its ending, else VTKHDF), and reports on it:
-/// counts, quality, stable steps (s), memory (MB), run time (s; null for implicit steps) and room on the disk (MB). The step, and
-/// with it the run time, is that without contact: closed springs of penalty contact lower it.
+/// counts, quality, stable steps (s), memory (MB), run time (s; null for implicit steps) and room on the disk (MB), and how so
+/// many processes (`ranks`) would share the run. The step, and with it the run time, is that without contact: closed springs of
+/// penalty contact lower it.
 ///
 /// # Errors
 /// A mesh that cannot be made or read, or that this machine has no memory for; a file that cannot be written.
-pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunError> {
+pub fn mesh_report(
+    case: &Case,
+    out: Option<&Path>,
+    ranks: Option<usize>,
+) -> Result<MeshReport, RunError> {
+    if ranks.is_some() {
+        Leader::check(case)?;
+    }
     if out.is_none()
         && let Some(found) = position_report(case)?
     {
@@ -131,6 +143,8 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
     if let Some(path) = out {
         write_mesh(path, case, &model)?;
     }
+    let balance =
+        ranks.map(|ranks| Balance::of_model(case, &model, &mut solid, ranks)).transpose()?;
     let friction = numbers(case, &model, step);
     let bodies = model.mesh.bodies.iter().map(|body| BodyReport {
         name: body.name.clone(),
@@ -176,6 +190,7 @@ pub fn mesh_report(case: &Case, out: Option<&Path>) -> Result<MeshReport, RunErr
             springs_lower_the_step: explicit && case.contact.enforcement == Enforcement::Penalty,
             disk: Disk::of(case, &model, steps).estimate(&default_folder(case)),
         },
+        balance,
     })
 }
 

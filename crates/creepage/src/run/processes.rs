@@ -2,19 +2,20 @@
 
 use crate::case::schema::Case;
 use crate::run::error::RunError;
+use crate::run::log::Log;
 use crate::run::options::RunOptions;
 use crate::scenario::{InitialState, KeptState, Model, model, restart};
-use dynamics::{Partition, Ranks, Simulation, SimulationState};
+use dynamics::{Partition, Ranks, ShareSize, Simulation, SimulationState, share_sizes};
 use output::layout::file;
 use serde::{Deserialize, Serialize};
-use solid::Level;
+use solid::{Level, Solid};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A node of the contact surfaces takes contact about as long as an element takes to compute, in elements: of the reference disk and
 /// bar at 1 mm.
-const CONTACT: f64 = 0.1;
+const CONTACT: f64 = 0.25;
 
 /// A fully integrated element takes about as long as this many one-point elements.
 const FULL: f64 = 4.0;
@@ -63,11 +64,6 @@ impl Leader {
         }
     }
 
-    /// How many processes there are.
-    pub(super) fn size(&self) -> usize {
-        self.ranks.size()
-    }
-
     /// Shares the steps of the simulation with the other processes.
     pub(super) fn share(
         &self,
@@ -76,6 +72,7 @@ impl Leader {
         model: &Model,
         facts: &InitialState,
         simulation: &mut Simulation,
+        log: &mut Log,
     ) -> Result<(), RunError> {
         let told = Told {
             case: case.to_toml(),
@@ -92,8 +89,8 @@ impl Leader {
         self.told.store(true, Ordering::Relaxed);
         self.ranks.broadcast(&mut bytes);
         agree(&self.ranks, true)?;
-        simulation.take_share(self.ranks.clone(), told.partition);
-        Ok(())
+        let sizes = simulation.take_share(self.ranks.clone(), told.partition);
+        Ok(log.say(&Balance::of(&sizes, model.mesh.hexes.len()).line())?)
     }
 }
 
@@ -150,6 +147,55 @@ fn agree(ranks: &Arc<dyn Ranks>, ready: bool) -> Result<(), RunError> {
     ranks.add(&mut unready);
     let reason = || "it could not set up the run, and says why".into();
     if unready[0] == 0 { Ok(()) } else { Err(RunError::Process { reason: reason() }) }
+}
+
+/// How processes share the work of a step.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Balance {
+    /// How many they are.
+    pub processes: usize,
+    /// Fewest and most elements that one computes.
+    pub elements: [usize; 2],
+    /// Elements that more than one compute, counted as often as they are computed again, over all elements.
+    pub computed_again: f64,
+    /// Most bytes that one sends in a step.
+    pub sent: usize,
+}
+
+impl Balance {
+    fn of(sizes: &[ShareSize], elements: usize) -> Self {
+        let of = |value: fn(&ShareSize) -> usize| sizes.iter().map(value);
+        let computed = || of(|size| size.elements);
+        Self {
+            processes: sizes.len(),
+            elements: [computed().min(), computed().max()].map(Option::unwrap_or_default),
+            computed_again: computed().sum::<usize>() as f64 / elements as f64 - 1.0,
+            sent: of(|size| size.sent).max().unwrap_or_default(),
+        }
+    }
+
+    /// Of so many processes that would share a run of this model, whose elements are `solid`.
+    pub(super) fn of_model(
+        case: &Case,
+        model: &Model,
+        solid: &mut Solid,
+        processes: usize,
+    ) -> Result<Self, RunError> {
+        let contact = model.contact_nodes(case)?;
+        let partition = partition(model, processes);
+        let sizes = share_sizes(solid, &partition, processes, &model.hub, contact.trace());
+        Ok(Self::of(&sizes, model.mesh.hexes.len()))
+    }
+
+    fn line(&self) -> String {
+        let Self { processes, elements: [fewest, most], computed_again, sent } = self;
+        format!(
+            "processes: {processes}, which compute {fewest} to {most} elements each, {:.1} % of all once more, and send up \
+             to {:.1} kB in a step each",
+            1e2 * computed_again,
+            1e-3 * *sent as f64
+        )
+    }
 }
 
 /// Nodes by recursive coordinate bisection, so that all processes have the same work: process 0 has that of contact besides.

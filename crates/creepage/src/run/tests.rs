@@ -121,10 +121,10 @@ fn the_mesh_report_estimates_the_time_of_explicit_steps_alone() {
         let text = format!("mesh.zone.size = 4e-3\ncontact.enforcement = \"exact\"\n{SHORT}{more}");
         Case::from_text(&text, Path::new("short.toml"), &[]).unwrap()
     };
-    let explicit = crate::run::mesh_report(&case(""), None).unwrap();
+    let explicit = crate::run::mesh_report(&case(""), None, None).unwrap();
     assert!(explicit.estimate.run_time_s.unwrap() > 0.0);
     let implicit = "time.integrator = \"implicit\"\ntime.step = 1e-5\n";
-    let implicit = crate::run::mesh_report(&case(implicit), None).unwrap();
+    let implicit = crate::run::mesh_report(&case(implicit), None, None).unwrap();
     assert!(implicit.estimate.run_time_s.is_none());
     assert!(implicit.estimate.steps > 0.0);
 }
