@@ -35,5 +35,5 @@ pub use execute::run;
 pub use log::REFUSED;
 pub use mesh_report::{BodyReport, Estimate, MeshReport, QualityReport, StableStep, mesh_report};
 pub use options::RunOptions;
-pub use processes::{Balance, Leader, assist};
+pub use processes::{Leader, SharedWork, assist};
 pub use solid::Level;

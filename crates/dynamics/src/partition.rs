@@ -26,7 +26,7 @@ impl Partition {
 
     /// Recursive coordinate bisection (Berger and Bokhari 1987) of the chunks of nodes at `reference` (m) into parts of the shares
     /// `parts` of all `weight`: each cut halves the parts, where it runs through the fewest chunks of those that give each side its
-    /// weight within [`TOLERANCE`].
+    /// weight within two per cent of it all.
     pub fn bisected(reference: &[Padded], weight: &[f64], parts: &[f64]) -> Self {
         let chunks: Vec<Weighed> = reference
             .chunks(CHUNK)

@@ -68,13 +68,13 @@ pub fn text(report: &MeshReport) -> String {
     };
     row(&mut out, "rolling takes about", &about(estimate.run_time_s), "", note);
 
-    if let Some(balance) = &report.balance {
-        heading(&mut out, &format!("Shared by {} processes", balance.processes));
-        let [fewest, most] = balance.elements.map(number);
+    if let Some(shared) = &report.shared {
+        heading(&mut out, &format!("Shared by {} processes", shared.processes));
+        let [fewest, most] = shared.elements.map(number);
         row(&mut out, "elements of each", &most, "", &format!("at most, {fewest} at least"));
-        let again = digits(Some(1e2 * balance.computed_again), 3);
+        let again = digits(Some(1e2 * shared.computed_again), 3);
         row(&mut out, "computed once more", &again, "%", "of all elements");
-        let sent = digits(Some(1e-3 * balance.sent as f64), 3);
+        let sent = digits(Some(1e-3 * shared.sent as f64), 3);
         row(&mut out, "sent in a step", &sent, "kB", "by one process, at most");
         let memory = digits(Some(estimate.memory_mb), 3);
         row(&mut out, "memory of each", &memory, "MB", "as much as one process alone");

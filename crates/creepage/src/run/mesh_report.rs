@@ -8,7 +8,7 @@ use crate::run::disk::{Disk, DiskEstimate};
 use crate::run::error::RunError;
 use crate::run::folder::default_folder;
 use crate::run::mesh_file::write_mesh;
-use crate::run::processes::{Balance, Leader};
+use crate::run::processes::{Leader, SharedWork};
 use crate::scenario::memory::BYTES_PER_ELEMENT;
 use crate::scenario::numbers::numbers;
 use crate::scenario::wheel_on_rail::PositionReport;
@@ -46,7 +46,7 @@ pub struct MeshReport {
     pub estimate: Estimate,
     /// How several processes would share a run, if that was asked.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub balance: Option<Balance>,
+    pub shared: Option<SharedWork>,
 }
 
 /// A body of a mesh.
@@ -143,8 +143,8 @@ pub fn mesh_report(
     if let Some(path) = out {
         write_mesh(path, case, &model)?;
     }
-    let balance =
-        ranks.map(|ranks| Balance::of_model(case, &model, &mut solid, ranks)).transpose()?;
+    let shared =
+        ranks.map(|ranks| SharedWork::of_model(case, &model, &mut solid, ranks)).transpose()?;
     let friction = numbers(case, &model, step);
     let bodies = model.mesh.bodies.iter().map(|body| BodyReport {
         name: body.name.clone(),
@@ -190,7 +190,7 @@ pub fn mesh_report(
             springs_lower_the_step: explicit && case.contact.enforcement == Enforcement::Penalty,
             disk: Disk::of(case, &model, steps).estimate(&default_folder(case)),
         },
-        balance,
+        shared,
     })
 }
 

@@ -90,7 +90,7 @@ impl Leader {
         self.ranks.broadcast(&mut bytes);
         agree(&self.ranks, true)?;
         let sizes = simulation.take_share(self.ranks.clone(), told.partition);
-        Ok(log.say(&Balance::of(&sizes, model.mesh.hexes.len()).line())?)
+        Ok(log.say(&SharedWork::of(&sizes, model.mesh.hexes.len()).line())?)
     }
 }
 
@@ -151,7 +151,7 @@ fn agree(ranks: &Arc<dyn Ranks>, ready: bool) -> Result<(), RunError> {
 
 /// How processes share the work of a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Balance {
+pub struct SharedWork {
     /// How many they are.
     pub processes: usize,
     /// Fewest and most elements that one computes.
@@ -162,7 +162,7 @@ pub struct Balance {
     pub sent: usize,
 }
 
-impl Balance {
+impl SharedWork {
     fn of(sizes: &[ShareSize], elements: usize) -> Self {
         let of = |value: fn(&ShareSize) -> usize| sizes.iter().map(value);
         let computed = || of(|size| size.elements);
