@@ -45,7 +45,7 @@ pub struct RunOptions {
     #[serde(skip)]
     #[cfg_attr(feature = "clap", arg(skip))]
     pub law: Option<Arc<dyn OwnLaw>>,
-    /// The processes that share the steps of the run, of which this is the first; the others [`assist`](crate::assist) it.
+    /// The processes that share the steps of the run, of which this is the first; the others [`assist`](crate::run::assist) it.
     #[serde(skip)]
     #[cfg_attr(feature = "clap", arg(skip))]
     pub leader: Option<Arc<Leader>>,

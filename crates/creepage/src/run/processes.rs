@@ -13,8 +13,8 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A node of the contact surfaces takes contact about as long as an element takes to compute, in elements: of the reference disk and
-/// bar at 1 mm.
+/// How long contact takes process 0 while the others compute elements, by node of its surfaces, in elements: about half of what the
+/// reference disk and bar at 1 mm takes for contact.
 const CONTACT: f64 = 0.25;
 
 /// A fully integrated element takes about as long as this many one-point elements.
