@@ -61,7 +61,7 @@ cargo() {
     *) known "$@";;
     esac
 }
-for foreign in cases/sweeps/slurm.sh cd cp peers/bin/pip peers/bin/python pip python sh \
+for foreign in apt-get cases/sweeps/slurm.sh cd cp mpirun sbatch peers/bin/pip peers/bin/python pip python sh \
     ls-dyna {starter,engine,anim_to_vtk}_linux64_gf; do
     eval "$foreign() { known \"\$@\"; }"
 done
