@@ -170,6 +170,14 @@ impl Results {
     }
 }
 
+/// Two runs left the same bits of every dataset, the same summary but for what the clock puts in, and the same case.
+#[track_caller]
+pub fn same_bits(a: &Results, b: &Results) {
+    assert_eq!(a.differing(b), Vec::<&str>::new());
+    assert_eq!(timeless(&a.summary), timeless(&b.summary));
+    assert_eq!(a.resolved, b.resolved);
+}
+
 /// A summary without what the clock, the memory and the number of threads put in, and the sums that depend
 /// on it.
 pub fn timeless(summary: &Value) -> Value {

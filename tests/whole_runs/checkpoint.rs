@@ -9,7 +9,7 @@ use creepage::run::{RunError, RunOptions};
 use creepage::scenario::Stage;
 use output::summary::{Status, Summary};
 use output::{CHECKPOINTS, Checkpoint};
-use runs::{Results, load, log, options, project, results, run, timeless};
+use runs::{load, log, options, project, results, run, same_bits, timeless};
 
 /// The small case with every kind of output: a window of every step, and probes.
 const OUTPUTS: [&str; 5] = [
@@ -36,13 +36,6 @@ fn run_until(case: &Case, options: &RunOptions, step: u64) -> Result<Summary, Ru
 
 fn resuming(out: &Path, threads: usize) -> RunOptions {
     RunOptions { resume: true, ..options(out, threads) }
-}
-
-#[track_caller]
-fn same_bits(a: &Results, b: &Results) {
-    assert_eq!(a.differing(b), Vec::<&str>::new());
-    assert_eq!(timeless(&a.summary), timeless(&b.summary));
-    assert_eq!(a.resolved, b.resolved);
 }
 
 /// Interrupts a run several times and resumes it, each time on another number of threads.

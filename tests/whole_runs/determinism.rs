@@ -1,7 +1,7 @@
 //! The same case gives the same bits.
 
 use creepage::case::Case;
-use runs::{Results, load, project, run, timeless};
+use runs::{load, project, run, same_bits};
 
 /// The smoke case with every kind of output: a window of every step, and probes.
 fn smoke() -> Case {
@@ -13,13 +13,6 @@ fn smoke() -> Case {
             "output.probes.disk=[[0.001, 0.0]]",
         ],
     )
-}
-
-#[track_caller]
-fn same_bits(a: &Results, b: &Results) {
-    assert_eq!(a.differing(b), Vec::<&str>::new());
-    assert_eq!(timeless(&a.summary), timeless(&b.summary));
-    assert_eq!(a.resolved, b.resolved);
 }
 
 #[test]

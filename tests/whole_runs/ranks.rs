@@ -5,7 +5,7 @@ use creepage::{Leader, RunOptions};
 use dynamics::{CHUNK, Partition, Ranks};
 use output::summary::{Status, Summary};
 use runs::threads_as_ranks::threads_as_ranks;
-use runs::{Results, load, options, project, results, run, timeless};
+use runs::{Results, load, options, project, results, run, same_bits};
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,13 +44,6 @@ fn results_of(case: &Case, size: usize, partition: Option<Partition>) -> Results
 fn dealt_out(case: &Case, size: u32) -> Partition {
     let nodes = creepage::scenario::model(case).unwrap().mesh.nodes.len();
     Partition::new((0..nodes.div_ceil(CHUNK) as u32).map(|chunk| (chunk * 7 + 1) % size).collect())
-}
-
-#[track_caller]
-fn same_bits(a: &Results, b: &Results) {
-    assert_eq!(a.differing(b), Vec::<&str>::new());
-    assert_eq!(timeless(&a.summary), timeless(&b.summary));
-    assert_eq!(a.resolved, b.resolved);
 }
 
 #[track_caller]

@@ -5,7 +5,7 @@
 mod args;
 mod commands;
 mod manual;
-#[cfg(feature = "mpi")]
+#[cfg_attr(not(feature = "mpi"), path = "without_mpi.rs")]
 mod mpi;
 mod processes;
 mod progress;
@@ -51,13 +51,13 @@ pub fn main(words: impl IntoIterator<Item = OsString>) -> u8 {
     }
     let done = full_disks_are_errors().and_then(|()| stop::Stop::listening(json));
     let done = done.and_then(|stop| {
-        let world = process.map(|process| process.join(&line.command)).transpose()?;
-        if let Some(world) = &world {
-            world.lead(&mut line.command);
+        let universe = process.map(|process| process.join(&line.command)).transpose()?;
+        if let Some(universe) = &universe {
+            processes::lead(universe, &mut line.command);
         }
         line.args.stop = stop;
         let done = commands::dispatch(&line);
-        // the others end before their world does
+        // the others hear that the run has ended before MPI does
         drop(line);
         done
     });

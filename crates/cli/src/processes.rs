@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
-use creepage::{Error, Leader, Ranks};
+use creepage::{Error, Leader};
 
 use crate::commands::Command;
+use crate::mpi::Universe;
 use crate::terminal;
 
 /// Names of the number of a process, and of how many there are, under `mpirun`, `mpiexec` or `srun`: of Open MPI, of MPICH and
@@ -43,7 +44,7 @@ impl Process {
     ///
     /// # Errors
     /// A command that several processes cannot do together.
-    pub fn join(self, command: &Command) -> Result<World, Error> {
+    pub fn join(self, command: &Command) -> Result<Universe, Error> {
         let size = self.size;
         if !matches!(command, Command::Run(_)) {
             return Err(Error::Option {
@@ -53,7 +54,7 @@ impl Process {
                 ),
             });
         }
-        World::new().ok_or_else(|| Error::Option {
+        Universe::new().ok_or_else(|| Error::Option {
             problem: format!("{size} processes were started, and this program was built without MPI"),
             help: Some(
                 "build it with `cargo build --release --features mpi`, or start it without mpirun: \
@@ -65,8 +66,8 @@ impl Process {
 
     /// Assists the first process; returns the exit code. It says what is wrong here alone: what the first can say, it says.
     pub fn assist(self, command: &Command) -> u8 {
-        let assisted = self.join(command).map(|world| match command {
-            Command::Run(options) => creepage::assist(&world.ranks(), options.threads),
+        let assisted = self.join(command).map(|universe| match command {
+            Command::Run(options) => creepage::assist(&universe.ranks(), options.threads),
             _ => Ok(()),
         });
         match assisted {
@@ -80,37 +81,9 @@ impl Process {
     }
 }
 
-/// The processes joined, until it is dropped.
-pub struct World {
-    #[cfg(feature = "mpi")]
-    universe: crate::mpi::Universe,
-}
-
-impl World {
-    #[cfg(feature = "mpi")]
-    fn new() -> Option<Self> {
-        crate::mpi::Universe::new().map(|universe| Self { universe })
-    }
-
-    #[cfg(not(feature = "mpi"))]
-    fn new() -> Option<Self> {
-        None
-    }
-
-    #[cfg(feature = "mpi")]
-    fn ranks(&self) -> Arc<dyn Ranks> {
-        self.universe.ranks()
-    }
-
-    #[cfg(not(feature = "mpi"))]
-    fn ranks(&self) -> Arc<dyn Ranks> {
-        unreachable!("there is no world without MPI")
-    }
-
-    /// Has the first process share what the command runs.
-    pub fn lead(&self, command: &mut Command) {
-        if let Command::Run(options) = command {
-            options.leader = Some(Arc::new(Leader::new(self.ranks())));
-        }
+/// Has the first process of `universe` share what the command runs.
+pub fn lead(universe: &Universe, command: &mut Command) {
+    if let Command::Run(options) = command {
+        options.leader = Some(Arc::new(Leader::new(universe.ranks())));
     }
 }

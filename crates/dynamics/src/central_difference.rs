@@ -8,6 +8,7 @@ use crate::nodes::{Update, free_velocity};
 use crate::share::Share;
 use crate::simulation::{Simulation, StepReport};
 use crate::step_sums::StepSums;
+use contact::ContactSums;
 use std::time::Instant;
 
 /// Whether a process counts a node: its own, where several share them.
@@ -94,15 +95,42 @@ impl Simulation {
         let given_after = 0.5 * dt * (given * given_after.value());
         let moved = Instant::now();
 
-        // from here on of the whole bodies
-        let multiplicity = system.multiplicity;
+        let given = [given_before, given_after];
+        let energies = self.book(&sums, &contact, &hub, given, read);
+
+        let following = following / rayon::current_num_threads() as u32;
+        self.timers.internal_force += (internal - start).saturating_sub(following);
+        self.timers.boundary += bounded - internal;
+        self.timers.contact += contacted - bounded + following;
+        self.timers.nodes += moved - contacted;
+        self.step += 1;
+        let multiplicity = self.system.multiplicity;
+        let (drive, omega) = match &self.system.hub {
+            Some(h) => (h.reaction.times(multiplicity), 0.5 * (omega_before + h.state.omega)),
+            None => Default::default(),
+        };
+        let contact = contact.times(multiplicity);
+        StepReport { step: n, time, contact, energies, drive, omega, unsolved: None }
+    }
+
+    /// Books the works of a step of the whole bodies, those of `given` forces (J) before and after the full step; the energies there
+    /// if they are `read`.
+    fn book(
+        &mut self,
+        sums: &StepSums,
+        contact: &ContactSums,
+        hub: &HubWork,
+        given: [f64; 2],
+        read: bool,
+    ) -> Option<Energies> {
+        let (dt, multiplicity) = (self.dt, self.system.multiplicity);
         let (quiet, elements) = (sums.quiet.value(), sums.elements.value());
         let viscous = 0.5 * dt * (elements.viscous_power + sums.dashpot_power.value());
         self.ledger.add(&Works {
             friction: multiplicity * contact.friction_work,
             damping: multiplicity * (contact.damping_work + viscous + quiet.dissipated_before),
             contact_damping: multiplicity * contact.damping_work,
-            external: multiplicity * (hub.before + quiet.external_before + given_before),
+            external: multiplicity * (hub.before + quiet.external_before + given[0]),
         });
         let energies = read.then(|| {
             let now = Energies {
@@ -122,20 +150,8 @@ impl Simulation {
             friction: multiplicity * contact.friction_ahead,
             damping: multiplicity * (contact.damping_ahead + viscous + quiet.dissipated_after),
             contact_damping: multiplicity * contact.damping_ahead,
-            external: multiplicity * (hub.after + quiet.external_after + given_after),
+            external: multiplicity * (hub.after + quiet.external_after + given[1]),
         });
-
-        let following = following / rayon::current_num_threads() as u32;
-        self.timers.internal_force += (internal - start).saturating_sub(following);
-        self.timers.boundary += bounded - internal;
-        self.timers.contact += contacted - bounded + following;
-        self.timers.nodes += moved - contacted;
-        self.step += 1;
-        let (drive, omega) = match &system.hub {
-            Some(h) => (h.reaction.times(multiplicity), 0.5 * (omega_before + h.state.omega)),
-            None => Default::default(),
-        };
-        let contact = contact.times(multiplicity);
-        StepReport { step: n, time, contact, energies, drive, omega, unsolved: None }
+        energies
     }
 }

@@ -114,3 +114,44 @@ fn cut(chunks: &[Weighed], axis: usize, share: f64) -> (usize, usize) {
     let best = fair.min_by(|a, b| a.1.cmp(&b.1).then(a.2.total_cmp(&b.2)));
     best.map_or((0, 0), |&(place, through, _)| (place, through))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten rods along x of sixteen chunks, each as long as its rod, one rod beside the other along y.
+    fn rods() -> Vec<Padded> {
+        let node = |i: usize| {
+            let (rod, place) = (i / (16 * CHUNK), 7919 * i % (16 * CHUNK));
+            Padded::new([place as f64, rod as f64, 0.0])
+        };
+        (0..10 * 16 * CHUNK).map(node).collect()
+    }
+
+    #[test]
+    fn each_process_has_its_part_of_the_weight_within_the_tolerance() {
+        let reference = rods();
+        let weight: Vec<f64> = (0..reference.len()).map(|i| 1.0 + (i % 7) as f64).collect();
+        let all: f64 = weight.iter().sum();
+        for parts in [&[1.0, 1.0][..], &[1.0, 3.0], &[2.0, 1.0, 1.0], &[1.0; 5]] {
+            let partition = Partition::bisected(&reference, &weight, parts);
+            let mut of_each = vec![0.0; parts.len()];
+            (0..reference.len()).for_each(|n| of_each[partition.owner(n as u32)] += weight[n]);
+            let wanted = |part: f64| all * part / parts.iter().sum::<f64>();
+            // each part is left by at most three cuts
+            for (found, part) in of_each.iter().zip(parts) {
+                assert!((found - wanted(*part)).abs() <= 3.0 * TOLERANCE * all, "{of_each:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_cut_goes_between_chunks_where_it_can() {
+        let reference = rods();
+        let halves = Partition::bisected(&reference, &vec![1.0; reference.len()], &[1.0, 1.0]);
+        // five rods each, though the rods are longer than all are wide
+        for (rod, nodes) in halves.owners.chunks(16).enumerate() {
+            assert!(nodes.iter().all(|&owner| owner == u32::from(rod >= 5)), "{:?}", halves.owners);
+        }
+    }
+}

@@ -35,8 +35,8 @@ pub(crate) struct Share {
     halo: Mail,
     /// Of the nodes of the contact surfaces that others than process 0 own: forces to it, and back.
     surface: Mail,
-    /// Of the nodes of the contact surfaces, whether a message has them already.
-    noted: Vec<bool>,
+    /// Of the nodes of the contact surfaces, the message that takes their forces, if any does, and whether it has them already.
+    addressed: Vec<(Option<usize>, bool)>,
     /// Whether this process has all displacements and velocities.
     complete: bool,
     words: Vec<i64>,
@@ -111,12 +111,14 @@ impl Share {
         };
 
         let chunks = Chunks::new(&partition, me, halo.sent.iter().flatten(), surfaces);
-        let noted = vec![false; surfaces.len()];
+        let message =
+            |node: &u32| surface.out.iter().position(|m| m.rank == partition.owner(*node));
+        let addressed = surfaces.iter().map(|node| (message(node), false)).collect();
         if me != 0 {
             (system.contact, nodes.trace) = (None, None);
         }
         let words = vec![0; StepSums::WORDS];
-        Self { chunks, foreign, halo, surface, noted, complete: true, words, partition, ranks }
+        Self { chunks, foreign, halo, surface, addressed, complete: true, words, partition, ranks }
     }
 
     /// What each process does and sends.
@@ -183,13 +185,7 @@ impl Share {
     ) {
         let Chunks { beside_contact, read_by_others, beside_halo } = &self.chunks;
         if let Some(contact) = contact {
-            write_loaded(
-                &mut self.surface,
-                &mut self.noted,
-                &self.partition,
-                contact,
-                &nodes.force,
-            );
+            write_loaded(&mut self.surface.out, &mut self.addressed, contact, &nodes.force);
             self.ranks.exchange(&self.surface.out, &mut [], &mut || ());
             advance(nodes, beside_contact);
         } else {
@@ -243,7 +239,11 @@ impl Share {
             let message = |rank| Message { rank, numbers: vec![0.0; 6 * owned_by(rank).count()] };
             into = (1..self.ranks.size()).map(message).collect();
         } else {
-            let motion = |n: usize| [nodes.displacement[n].xyz(), nodes.velocity[n].xyz()].concat();
+            let motion = |n: usize| {
+                let [[x, y, z], [vx, vy, vz]] =
+                    [&nodes.displacement, &nodes.velocity].map(|f| f[n].xyz());
+                [x, y, z, vx, vy, vz]
+            };
             let numbers = owned_by(self.ranks.rank()).flat_map(motion).collect();
             out = vec![Message { rank: 0, numbers }];
         }
@@ -365,29 +365,27 @@ fn by_owner(
 
 /// Writes the nodes that contact has loaded into the messages to their owners: how many, then of each its number and its force.
 fn write_loaded(
-    surface: &mut Mail,
-    noted: &mut [bool],
-    partition: &Partition,
+    out: &mut [Message],
+    addressed: &mut [(Option<usize>, bool)],
     contact: &dyn Contact,
     force: &[Padded],
 ) {
-    for message in &mut surface.out {
-        let numbers = &mut message.numbers;
+    for Message { numbers, .. } in &mut *out {
         numbers.clear();
         numbers.push(0.0);
-        // some come more than once
-        for &loaded in contact.loaded() {
-            let node = contact.trace().in_mesh(loaded);
-            if partition.owner(node) == message.rank
-                && !std::mem::replace(&mut noted[loaded as usize], true)
-            {
-                let [x, y, z] = force[node as usize].xyz();
-                numbers.extend([f64::from(node), x, y, z]);
-            }
-        }
-        contact.loaded().iter().for_each(|&loaded| noted[loaded as usize] = false);
-        numbers[0] = ((numbers.len() - 1) / 4) as f64;
     }
+    // some come more than once
+    for &loaded in contact.loaded() {
+        if let (Some(message), written @ false) = &mut addressed[loaded as usize] {
+            *written = true;
+            let node = contact.trace().in_mesh(loaded);
+            let [x, y, z] = force[node as usize].xyz();
+            let numbers = &mut out[*message].numbers;
+            numbers.extend([f64::from(node), x, y, z]);
+            numbers[0] += 1.0;
+        }
+    }
+    contact.loaded().iter().for_each(|&loaded| addressed[loaded as usize].1 = false);
 }
 
 /// Takes the forces that a message of [`write_loaded`] holds.
@@ -419,8 +417,8 @@ fn asked_of(ranks: &dyn Ranks, wanted: &[Vec<u32>]) -> Vec<Vec<u32>> {
 }
 
 impl Simulation {
-    /// From now on takes the share of this process of the steps, by `partition`; returns what each process does. All processes must be in the same state. Process 0 goes on
-    /// as if it were alone; the others [assist](Self::assist).
+    /// From now on takes the share of this process of the steps, by `partition`; returns what each process does. All processes must
+    /// be in the same state. Process 0 goes on as if it were alone; the others [assist](Self::assist).
     ///
     /// The contact must not have paired nodes, the mesh not follow the patch, the steps be explicit.
     pub fn take_share(&mut self, ranks: Arc<dyn Ranks>, partition: Partition) -> Vec<ShareSize> {

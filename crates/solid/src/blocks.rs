@@ -20,13 +20,13 @@ const BLOCKS: usize = 64;
 const BLOCK_ELEMENTS: [usize; 2] = [512, 16384];
 
 /// A fully integrated element takes about as long as this many one-point elements.
-const FULL: usize = 4;
+pub const FULL_COST: usize = 4;
 
 /// Elements per block for the `elements` of one body and formulation; a multiple of [`BATCH`].
 fn block_size(elements: usize, full: bool) -> usize {
     let [least, most] = BLOCK_ELEMENTS;
-    let size = elements.div_ceil(BLOCKS).next_multiple_of(FULL * BATCH).clamp(least, most);
-    if full { size / FULL } else { size }
+    let size = elements.div_ceil(BLOCKS).next_multiple_of(FULL_COST * BATCH).clamp(least, most);
+    if full { size / FULL_COST } else { size }
 }
 
 /// Elements per batch: the number of lanes of the widest vector.

@@ -32,6 +32,7 @@ mod stiffness;
 mod stress;
 mod tensor;
 
+pub use blocks::FULL_COST;
 pub use centrifugal::Centrifugal;
 pub use formulation::{Element, Elements, Formulation, Volumetric};
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients, surface_derivatives};

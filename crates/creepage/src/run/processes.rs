@@ -8,7 +8,7 @@ use crate::scenario::{InitialState, KeptState, Model, model, restart};
 use dynamics::{Partition, Ranks, ShareSize, Simulation, SimulationState, share_sizes};
 use output::layout::file;
 use serde::{Deserialize, Serialize};
-use solid::{Level, Solid};
+use solid::{FULL_COST, Level, Solid};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,12 +17,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// reference disk and bar at 1 mm takes for contact.
 const CONTACT: f64 = 0.25;
 
-/// A fully integrated element takes about as long as this many one-point elements.
-const FULL: f64 = 4.0;
-
 /// What the other processes must know to be in the state of process 0.
 #[derive(Serialize, Deserialize)]
-struct Told {
+struct SharedRun {
     /// The case, and the file that relative paths in it are beside.
     case: String,
     file: PathBuf,
@@ -38,13 +35,13 @@ struct Told {
 #[derive(Debug)]
 pub struct Leader {
     ranks: Arc<dyn Ranks>,
-    told: AtomicBool,
+    shared: AtomicBool,
 }
 
 impl Leader {
     /// The first of these processes.
     pub fn new(ranks: Arc<dyn Ranks>) -> Self {
-        Self { ranks, told: AtomicBool::new(false) }
+        Self { ranks, shared: AtomicBool::new(false) }
     }
 
     /// Whether the steps of a case can be shared.
@@ -74,7 +71,7 @@ impl Leader {
         simulation: &mut Simulation,
         log: &mut Log,
     ) -> Result<(), RunError> {
-        let told = Told {
+        let shared = SharedRun {
             case: case.to_toml(),
             file: options.folder(case).join(file::CASE),
             kernels: model.kernels.name().into(),
@@ -85,18 +82,18 @@ impl Leader {
                 None => partition(model, self.ranks.size()),
             },
         };
-        let mut bytes = output::bytes_of(&told)?;
-        self.told.store(true, Ordering::Relaxed);
+        let mut bytes = output::bytes_of(&shared)?;
+        self.shared.store(true, Ordering::Relaxed);
         self.ranks.broadcast(&mut bytes);
         agree(&self.ranks, true)?;
-        let sizes = simulation.take_share(self.ranks.clone(), told.partition);
+        let sizes = simulation.take_share(self.ranks.clone(), shared.partition);
         Ok(log.say(&SharedWork::of(&sizes, model.mesh.hexes.len()).line())?)
     }
 }
 
 impl Drop for Leader {
     fn drop(&mut self) {
-        if !self.told.load(Ordering::Relaxed) {
+        if !self.shared.load(Ordering::Relaxed) {
             self.ranks.broadcast(&mut Vec::new());
         }
     }
@@ -114,8 +111,8 @@ pub fn assist(ranks: &Arc<dyn Ranks>, threads: usize) -> Result<(), RunError> {
         if bytes.is_empty() {
             return Ok(());
         }
-        let told: Result<Told, RunError> = output::of_bytes(&bytes).map_err(RunError::from);
-        let made = told.and_then(|told| Ok((simulation(&told)?, told.partition)));
+        let shared: Result<SharedRun, RunError> = output::of_bytes(&bytes).map_err(RunError::from);
+        let made = shared.and_then(|shared| Ok((simulation(&shared)?, shared.partition)));
         let agreed = agree(ranks, made.is_ok());
         let (mut simulation, partition) = made?;
         if agreed.is_ok() {
@@ -128,17 +125,17 @@ pub fn assist(ranks: &Arc<dyn Ranks>, threads: usize) -> Result<(), RunError> {
 }
 
 /// The simulation in the state of process 0.
-fn simulation(told: &Told) -> Result<Simulation, RunError> {
-    let case = Case::from_text(&told.case, &told.file, &[])
+fn simulation(shared: &SharedRun) -> Result<Simulation, RunError> {
+    let case = Case::from_text(&shared.case, &shared.file, &[])
         .map_err(|error| RunError::Process { reason: error.to_string() })?;
     let mut model = model(&case)?;
     model.kernels =
-        Level::named(&told.kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
+        Level::named(&shared.kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
             RunError::Process {
-                reason: format!("it cannot run {} kernels, which process 0 has", told.kernels),
+                reason: format!("it cannot run {} kernels, which process 0 has", shared.kernels),
             }
         })?;
-    Ok(restart(&case, &model, told.found.clone(), &told.simulation)?.simulation)
+    Ok(restart(&case, &model, shared.found.clone(), &shared.simulation)?.simulation)
 }
 
 /// Whether all processes are `ready`.
@@ -202,7 +199,8 @@ impl SharedWork {
 fn partition(model: &Model, processes: usize) -> Partition {
     let mut weight = vec![0.0; model.mesh.nodes.len()];
     for (element, hex) in model.mesh.hexes.iter().enumerate() {
-        let cost = if model.full.get(element) == Some(&true) { FULL } else { 1.0 };
+        let full = model.full.get(element) == Some(&true);
+        let cost = if full { FULL_COST as f64 } else { 1.0 };
         hex.iter().for_each(|&n| weight[n as usize] += cost / 8.0);
     }
     let elements: f64 = weight.iter().sum();
