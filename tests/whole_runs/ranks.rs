@@ -83,6 +83,21 @@ fn half_a_wheel_has_the_same_bits_on_any_processes() {
 }
 
 #[test]
+fn a_zone_that_follows_the_contact_has_the_same_bits_on_any_processes() {
+    let surface = "bar.surface={ formula = \"2e-6*cos(2*pi*x/0.008)\" }";
+    let sets =
+        ["mesh.window=0.0096", "time.roll=0.002", "output.probes.bar=[[0.001, 0.0]]", surface];
+    let case = load(&project("tests/small.toml"), &sets);
+    let alone = run(&case, 1);
+    let travelled = &alone.data["history/window_x"];
+    assert!(travelled.windows(2).any(|x| x[1] > x[0]));
+    for size in [2, 4] {
+        same_bits(&alone, &results_of(&case, size, None));
+    }
+    same_bits(&alone, &results_of(&case, 3, Some(dealt_out(&case, 3))));
+}
+
+#[test]
 fn a_run_goes_on_with_another_number_of_processes_to_the_same_bits() {
     let sets = ["time.roll=0.001", "checkpoint.steps=40"];
     let case = load(&project("tests/small.toml"), &sets);
@@ -115,14 +130,12 @@ fn interrupted(case: &Case, out: &Path, mut ranks: Vec<Arc<dyn Ranks>>) {
 
 #[test]
 fn what_one_process_must_run_is_refused_and_the_others_end() {
-    for (sets, what) in [
-        (
-            &["time.integrator=implicit", "contact.enforcement=exact", "time.step=5e-6"][..],
-            "implicit",
-        ),
-        (&["mesh.window=0.012", "time.roll=0.012"], "mesh.window"),
+    let implicit = ["time.integrator=implicit", "contact.enforcement=exact", "time.step=5e-6"];
+    for (file, sets, what) in [
+        ("tests/small.toml", &implicit[..], "implicit"),
+        ("cases/verdict/slice.toml", &[], "plane strain"),
     ] {
-        let case = load(&project("tests/small.toml"), sets);
+        let case = load(&project(file), sets);
         let folder = tempfile::tempdir().unwrap();
         let refused = shared(&case, 2, &options(&folder.path().join("run"), 1)).unwrap_err();
         assert!(refused.contains(what) && refused.contains("several processes"), "{refused}");

@@ -52,6 +52,7 @@ impl Simulation {
         let advances = hub.x > 0.5 * window.lower.by;
         let mut moved = None;
         if turns || advances {
+            self.gather();
             let (before, [upper, lower]) = self.present()?;
             let mut lost = 0;
             if turns {
@@ -63,6 +64,7 @@ impl Simulation {
             Fixed::clear(&self.system.fixed, &mut self.nodes.displacement);
             Fixed::clear(&self.system.fixed, &mut self.nodes.velocity);
             self.ledger.expect(before);
+            self.share_state()?;
             moved = Some(Moved { lost });
         }
         self.window = Some(window);

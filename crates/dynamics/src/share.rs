@@ -10,6 +10,7 @@ use crate::nodal_state::NodalState;
 use crate::partition::{CHUNK, Partition};
 use crate::ranks::{Message, Ranks};
 use crate::simulation::Simulation;
+use crate::state::{RestoreError, SimulationState};
 use crate::step_sums::StepSums;
 use crate::system::System;
 use contact::{Contact, Trace};
@@ -22,7 +23,8 @@ use std::sync::Arc;
 const STEP: u64 = 1;
 const STEP_AND_READ: u64 = 2;
 const GATHER: u64 = 3;
-const END: u64 = 4;
+const TAKE_STATE: u64 = 4;
+const END: u64 = 5;
 
 /// A share of the nodes, and what travels between it and the others.
 pub(crate) struct Share {
@@ -420,7 +422,7 @@ impl Simulation {
     /// From now on takes the share of this process of the steps, by `partition`; returns what each process does. All processes must
     /// be in the same state. Process 0 goes on as if it were alone; the others [assist](Self::assist).
     ///
-    /// The contact must not have paired nodes, the mesh not follow the patch, the steps be explicit.
+    /// The contact must not have paired nodes, the steps be explicit. Process 0 alone moves a mesh that follows the patch.
     pub fn take_share(&mut self, ranks: Arc<dyn Ranks>, partition: Partition) -> Vec<ShareSize> {
         let share = Share::new(ranks, partition, &mut self.system, &mut self.nodes);
         let sizes = share.sizes(&self.system.solid, self.nodes.inverse_mass.len());
@@ -429,15 +431,44 @@ impl Simulation {
     }
 
     /// Does as process 0 tells, until that ends its simulation.
-    pub fn assist(&mut self) {
+    ///
+    /// # Errors
+    /// None but by a fault of the program: a state of process 0 that this one cannot be in.
+    pub fn assist(&mut self) -> Result<(), RestoreError> {
         loop {
             match self.share.as_ref().map(|share| share.ranks.tell(0)) {
                 Some(STEP) => drop(self.step(false)),
                 Some(STEP_AND_READ) => drop(self.step(true)),
                 Some(GATHER) => self.gather(),
-                _ => return,
+                Some(TAKE_STATE) => self.share_state()?,
+                _ => return Ok(()),
             }
         }
+    }
+
+    /// Brings the state of process 0, which has all displacements and velocities, to the others.
+    pub(crate) fn share_state(&mut self) -> Result<(), RestoreError> {
+        let Some(ranks) = self.share.as_ref().map(|share| share.ranks.clone()) else {
+            return Ok(());
+        };
+        let mut bytes = Vec::new();
+        let mut taken = Ok(());
+        if ranks.rank() == 0 {
+            ranks.tell(TAKE_STATE);
+            let state = SimulationState { contact: None, ..self.snapshot() };
+            bytes = postcard::to_allocvec(&state)?;
+            ranks.broadcast(&mut bytes);
+        } else {
+            ranks.broadcast(&mut bytes);
+            let state: Result<SimulationState, _> = postcard::from_bytes(&bytes);
+            taken = state.map_err(RestoreError::from).and_then(|state| self.restore(&state));
+        }
+        let mut failed = [i64::from(taken.is_err())];
+        ranks.add(&mut failed);
+        if let Some(share) = &mut self.share {
+            share.complete = true;
+        }
+        if failed[0] == 0 { Ok(()) } else { taken.and(Err(RestoreError::Process)) }
     }
 
     /// Brings displacements and velocities of all nodes to process 0. Between steps it has those of its own elements and of

@@ -57,6 +57,12 @@ pub enum RestoreError {
     /// The state of contact is of another model.
     #[error(transparent)]
     Contact(#[from] StateError),
+    /// The state came from another process in another form.
+    #[error("the state of process 0 cannot be read")]
+    Form(#[from] postcard::Error),
+    /// Another process cannot go on from it.
+    #[error("another process cannot go on from the state of process 0")]
+    Process,
 }
 
 impl Simulation {

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::case::schema::Case;
 use crate::run::disk::Disk;
-use crate::scenario::{Cost, InitialState, Model, ScenarioError, restart};
+use crate::scenario::{Cost, InitialState, Model, ScenarioError, restart_in_place};
 use dynamics::Simulation;
 use friction::Kind;
 use mesh::Padded;
@@ -25,7 +25,8 @@ pub(crate) fn cost(
     if case.theta().is_some() || case.friction.law == Kind::Python {
         return Ok(None);
     }
-    let mut copy = restart(case, model, facts.found(), &simulation.snapshot())?.simulation;
+    let snapshot = simulation.snapshot();
+    let mut copy = restart_in_place(case, model, facts.found(), &snapshot)?.simulation;
     let each = seconds_each(|| {
         copy.step(false);
     });

@@ -49,13 +49,13 @@ pub enum RunError {
         /// What of the case.
         what: &'static str,
     },
-    /// Another of the processes that share a run cannot do its part.
-    #[error("another process of the run: {reason}")]
+    /// One of the processes that share a run cannot do its part.
+    #[error("{reason}")]
     #[diagnostic(help(
         "all machines need the same creepage, the files of the case and its memory"
     ))]
     Process {
-        /// What is wrong there.
+        /// What is wrong.
         reason: String,
     },
     /// Threads cannot be started.

@@ -2,9 +2,9 @@
 
 use crate::case::schema::Case;
 use crate::run::error::RunError;
-use crate::run::log::Log;
+use crate::run::log::{Log, REFUSED};
 use crate::run::options::RunOptions;
-use crate::scenario::{InitialState, KeptState, Model, model, restart};
+use crate::scenario::{InitialState, KeptState, Model, ScenarioError, model, restart_in_place};
 use dynamics::{Partition, Ranks, ShareSize, Simulation, SimulationState, share_sizes};
 use output::layout::file;
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,6 @@ impl Leader {
         let alone = [
             (case.is_half_space(), "half-spaces"),
             (case.theta().is_some(), "implicit steps"),
-            (case.mesh.window.is_some(), "a fine zone that follows the contact (mesh.window)"),
             (case.mesh.plane_strain, "a slice in plane strain"),
         ];
         match alone.into_iter().find(|(is, _)| *is) {
@@ -83,9 +82,15 @@ impl Leader {
             },
         };
         let mut bytes = output::bytes_of(&shared)?;
-        self.shared.store(true, Ordering::Relaxed);
+        if self.shared.swap(true, Ordering::Relaxed) {
+            let reason = "the other processes have ended: start all of them again".into();
+            return Err(RunError::Process { reason });
+        }
         self.ranks.broadcast(&mut bytes);
-        agree(&self.ranks, true)?;
+        agree(&self.ranks, true).or_else(|error| {
+            log.say(&format!("{REFUSED}{error}"))?;
+            Err(error)
+        })?;
         let sizes = simulation.take_share(self.ranks.clone(), shared.partition);
         Ok(log.say(&SharedWork::of(&sizes, model.mesh.hexes.len()).line())?)
     }
@@ -117,7 +122,7 @@ pub fn assist(ranks: &Arc<dyn Ranks>, threads: usize) -> Result<(), RunError> {
         let (mut simulation, partition) = made?;
         if agreed.is_ok() {
             simulation.take_share(ranks.clone(), partition);
-            simulation.assist();
+            simulation.assist().map_err(ScenarioError::from)?;
         }
         // where another process is not ready, that says why
         Ok(())
@@ -132,17 +137,18 @@ fn simulation(shared: &SharedRun) -> Result<Simulation, RunError> {
     model.kernels =
         Level::named(&shared.kernels).and_then(Level::with_the_same_bits).ok_or_else(|| {
             RunError::Process {
-                reason: format!("it cannot run {} kernels, which process 0 has", shared.kernels),
+                reason: format!("no {} kernels, which process 0 has", shared.kernels),
             }
         })?;
-    Ok(restart(&case, &model, shared.found.clone(), &shared.simulation)?.simulation)
+    let found = shared.found.clone();
+    Ok(restart_in_place(&case, &model, found, &shared.simulation)?.simulation)
 }
 
 /// Whether all processes are `ready`.
 fn agree(ranks: &Arc<dyn Ranks>, ready: bool) -> Result<(), RunError> {
     let mut unready = [i64::from(!ready)];
     ranks.add(&mut unready);
-    let reason = || "it could not set up the run, and says why".into();
+    let reason = || "another process could not set up the run, and says why".into();
     if unready[0] == 0 { Ok(()) } else { Err(RunError::Process { reason: reason() }) }
 }
 

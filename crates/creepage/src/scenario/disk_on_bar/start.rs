@@ -15,7 +15,7 @@ use crate::scenario::start::{InitialState, KeptState, RollingRadius, Stability, 
 use contact::{ContactStep, Method, PenaltyContact, StabilityScale};
 use dynamics::{
     Fixed, Hub, QuietEnd, RollingField, Setup, Sideways, Simulation, SimulationState, Spin, System,
-    Vertical,
+    Vertical, Window,
 };
 use mesh::Padded;
 use output::NotWritten;
@@ -202,13 +202,14 @@ pub fn start(
     };
     let radius = RollingRadius { nominal, effective };
     let found = KeptState { stability, radius, preload, preload_wall, steps: steps as u64 };
+    let window = window(case, model, &mut solid)?;
     let system = System {
         contact: Some(contact),
         hub: Some(hub),
         quiet,
         ..System::free(solid, model.mass.clone())
     };
-    assemble(case, model, found, system, [displacement, velocity])
+    Ok(assemble(case, model, found, window, system, [displacement, velocity]))
 }
 
 /// The simulation in the `state` of a checkpoint, with what was `found` when it began.
@@ -221,7 +222,32 @@ pub fn restart(
     found: KeptState,
     state: &SimulationState,
 ) -> Result<Start, ScenarioError> {
-    let solid = model.solid(case)?;
+    let mut solid = model.solid(case)?;
+    let window = window(case, model, &mut solid)?;
+    set_up(case, model, found, state, (solid, window))
+}
+
+/// The same for steps alone: where another process moves a zone that follows the contact, or none does.
+///
+/// # Errors
+/// Those of [`restart`].
+pub fn restart_in_place(
+    case: &Case,
+    model: &Model,
+    found: KeptState,
+    state: &SimulationState,
+) -> Result<Start, ScenarioError> {
+    set_up(case, model, found, state, (model.solid(case)?, None))
+}
+
+/// The simulation in the `state` of a checkpoint.
+fn set_up(
+    case: &Case,
+    model: &Model,
+    found: KeptState,
+    state: &SimulationState,
+    (solid, window): (Solid, Option<Window>),
+) -> Result<Start, ScenarioError> {
     let contact: Method = match case.contact.enforcement {
         Enforcement::Exact => model.exact_contact(case)?.into(),
         Enforcement::Penalty => {
@@ -236,7 +262,7 @@ pub fn restart(
         ..System::free(solid, model.mass.clone())
     };
     let rest = vec![Padded::ZERO; model.mass.len()];
-    let mut start = assemble(case, model, found, system, [rest.clone(), rest])?;
+    let mut start = assemble(case, model, found, window, system, [rest.clone(), rest]);
     start.simulation.restore(state)?;
     Ok(start)
 }
@@ -247,10 +273,10 @@ fn assemble(
     case: &Case,
     model: &Model,
     found: KeptState,
+    window: Option<Window>,
     mut system: System,
     [displacement, velocity]: [Vec<Padded>; 2],
-) -> Result<Start, ScenarioError> {
-    let window = window(case, model, &mut system.solid)?;
+) -> Start {
     let KeptState { stability, radius, preload, preload_wall, steps } = found;
     let dt = case.duration() / steps as f64;
     if let Some(hub) = &mut system.hub {
@@ -285,10 +311,8 @@ fn assemble(
         simulation.set_window(window);
     }
     let numbers = numbers(case, model, dt);
-    Ok(Start {
-        simulation,
-        facts: InitialState { stability, radius, preload, preload_wall, numbers, steps },
-    })
+    let facts = InitialState { stability, radius, preload, preload_wall, numbers, steps };
+    Start { simulation, facts }
 }
 
 /// The scale of penalty springs that are a fraction of the stability limit.
