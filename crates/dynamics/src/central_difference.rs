@@ -9,7 +9,7 @@ use crate::share::Share;
 use crate::simulation::{Simulation, StepReport};
 use crate::step_sums::StepSums;
 use contact::ContactSums;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Whether a process counts a node: its own, where several share them.
 fn counted(share: Option<&Share>) -> impl Fn(u32) -> bool + '_ {
@@ -53,6 +53,7 @@ impl Simulation {
             sums.load = hub.resultant_sums(&nodes.displacement, &nodes.force, counts);
         }
         let contacted = Instant::now();
+        let for_forces = share.as_mut().map_or(Duration::ZERO, |share| share.take_waited());
 
         let update = Update {
             dt,
@@ -94,6 +95,7 @@ impl Simulation {
         }
         let given_after = 0.5 * dt * (given * given_after.value());
         let moved = Instant::now();
+        let for_nodes = share.as_mut().map_or(Duration::ZERO, |share| share.take_waited());
 
         let given = [given_before, given_after];
         let energies = self.book(&sums, &contact, &hub, given, read);
@@ -101,8 +103,9 @@ impl Simulation {
         let following = following / rayon::current_num_threads() as u32;
         self.timers.internal_force += (internal - start).saturating_sub(following);
         self.timers.boundary += bounded - internal;
-        self.timers.contact += contacted - bounded + following;
-        self.timers.nodes += moved - contacted;
+        self.timers.contact += contacted - bounded + following - for_forces;
+        self.timers.nodes += moved - contacted - for_nodes;
+        self.timers.exchange += for_forces + for_nodes;
         self.step += 1;
         let multiplicity = self.system.multiplicity;
         let (drive, omega) = match &self.system.hub {

@@ -18,6 +18,7 @@ use exact_sum::ExactSum;
 use mesh::Padded;
 use solid::Solid;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 /// What process 0 tells the others to do.
 const STEP: u64 = 1;
@@ -42,6 +43,8 @@ pub(crate) struct Share {
     /// Whether this process has all displacements and velocities.
     complete: bool,
     words: Vec<i64>,
+    /// How long it has waited for others since that was taken.
+    waited: Duration,
 }
 
 /// The chunks of a process, in the order in which it advances them.
@@ -120,7 +123,19 @@ impl Share {
             (system.contact, nodes.trace) = (None, None);
         }
         let words = vec![0; StepSums::WORDS];
-        Self { chunks, foreign, halo, surface, addressed, complete: true, words, partition, ranks }
+        let (complete, waited) = (true, Duration::ZERO);
+        Self {
+            chunks,
+            foreign,
+            halo,
+            surface,
+            addressed,
+            complete,
+            words,
+            waited,
+            partition,
+            ranks,
+        }
     }
 
     /// What each process does and sends.
@@ -150,6 +165,11 @@ impl Share {
         self.partition.owner(node) == self.ranks.rank()
     }
 
+    /// How long it has waited for others since this was asked.
+    pub(crate) fn take_waited(&mut self) -> Duration {
+        std::mem::take(&mut self.waited)
+    }
+
     /// To be called before a step.
     pub(crate) fn begin_step(&mut self, read: bool) {
         if self.leads() {
@@ -168,7 +188,7 @@ impl Share {
             }
             return;
         }
-        self.ranks.exchange(&[], into, &mut || ());
+        wait_for(&*self.ranks, &[], into, &mut self.waited, || ());
         for (message, nodes) in into.iter().zip(received) {
             for (f, &node) in message.numbers.as_chunks::<3>().0.iter().zip(&*nodes) {
                 force[node as usize] = Padded::new(*f);
@@ -188,11 +208,11 @@ impl Share {
         let Chunks { beside_contact, read_by_others, beside_halo } = &self.chunks;
         if let Some(contact) = contact {
             write_loaded(&mut self.surface.out, &mut self.addressed, contact, &nodes.force);
-            self.ranks.exchange(&self.surface.out, &mut [], &mut || ());
+            wait_for(&*self.ranks, &self.surface.out, &mut [], &mut self.waited, || ());
             advance(nodes, beside_contact);
         } else {
             let Mail { out, into, .. } = &mut self.surface;
-            self.ranks.exchange(out, into, &mut || advance(nodes, beside_contact));
+            wait_for(&*self.ranks, out, into, &mut self.waited, || advance(nodes, beside_contact));
             into.iter().for_each(|message| take_loaded(message, &mut nodes.force));
         }
         advance(nodes, read_by_others);
@@ -201,7 +221,7 @@ impl Share {
             let velocities = sent.iter().flat_map(|&n| nodes.velocity[n as usize].xyz());
             message.numbers.iter_mut().zip(velocities).for_each(|(to, v)| *to = v);
         }
-        self.ranks.exchange(out, into, &mut || advance(nodes, beside_halo));
+        wait_for(&*self.ranks, out, into, &mut self.waited, || advance(nodes, beside_halo));
         for (message, received) in into.iter().zip(received) {
             for (v, &node) in message.numbers.as_chunks::<3>().0.iter().zip(&*received) {
                 let (u, v) = (&mut nodes.displacement[node as usize], Padded::new(*v));
@@ -215,7 +235,9 @@ impl Share {
     /// The sums over all processes.
     pub(crate) fn add_up(&mut self, sums: &mut StepSums) {
         sums.write_words(&mut self.words);
+        let begun = Instant::now();
         self.ranks.add(&mut self.words);
+        self.waited += begun.elapsed();
         sums.take_words(&self.words);
     }
 
@@ -311,6 +333,24 @@ fn carried<'a>(nodes: usize, hub: impl Iterator<Item = &'a u32>) -> Vec<bool> {
     let mut carried = vec![false; nodes];
     hub.for_each(|&n| carried[n as usize] = true);
     carried
+}
+
+/// [Exchanges](Ranks::exchange) messages, and adds to `waited` what that takes besides `beside`.
+fn wait_for(
+    ranks: &dyn Ranks,
+    out: &[Message],
+    into: &mut [Message],
+    waited: &mut Duration,
+    mut beside: impl FnMut(),
+) {
+    let begun = Instant::now();
+    let mut busy = Duration::ZERO;
+    ranks.exchange(out, into, &mut || {
+        let begun = Instant::now();
+        beside();
+        busy += begun.elapsed();
+    });
+    *waited += begun.elapsed().saturating_sub(busy);
 }
 
 /// What a process does and sends in a step.

@@ -39,6 +39,8 @@ pub struct Timers {
     pub boundary: Duration,
     /// Velocity and position of nodes and hub, mass damping.
     pub nodes: Duration,
+    /// Waiting for the other processes, where several share the steps, and what they send.
+    pub exchange: Duration,
 }
 
 /// What a step found at its start, time t^n.

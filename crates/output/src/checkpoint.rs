@@ -23,7 +23,7 @@ pub const CHECKPOINTS: [&str; 2] = ["checkpoint.h5", "checkpoint-1.h5"];
 /// Root attribute with the version of the file's form; other versions are refused.
 const FORM: &str = "checkpoint_form";
 /// The version written here: results and state as postcard.
-const THIS_FORM: &str = "5";
+const THIS_FORM: &str = "6";
 /// Root attribute with the SHA-256 of provenance, results and state, in hexadecimal.
 const CHECKSUM: &str = "sha256";
 /// Root attribute with the step, for people; the program takes it from [`RESULTS`].

@@ -18,7 +18,10 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 /// Nodes per cluster: a larger number makes the coarse level cheaper and the iterations more.
 const CLUSTER: usize = 250;
 
-/// Clusters smaller than this part of [`CLUSTER`] join a neighbour.
+/// Most clusters, but for those that do not fill: the work of the factor grows with the square of their number.
+const MOST: usize = 5000;
+
+/// Clusters smaller than this part of a full one join a neighbour.
 const SMALLEST: usize = 3;
 
 /// Part of the slaves that may open or close until the coarse level follows: a preconditioner need only be like the tangent.
@@ -298,6 +301,7 @@ fn clusters(
     is_free: impl Fn(usize) -> bool,
 ) -> (Vec<u32>, usize) {
     let n = reference.len();
+    let full = CLUSTER.max(n.div_ceil(MOST));
     let mut cluster = vec![NONE; n];
     let mut members: Vec<Vec<u32>> = Vec::new();
     let mut heap = BinaryHeap::new();
@@ -316,7 +320,7 @@ fn clusters(
             }
             cluster[at] = label;
             own.push(node);
-            if own.len() == CLUSTER {
+            if own.len() == full {
                 break;
             }
             for &next in &neighbours[at] {
@@ -329,7 +333,7 @@ fn clusters(
                 }
             }
         }
-        let host = (own.len() < CLUSTER / SMALLEST).then(|| {
+        let host = (own.len() < full / SMALLEST).then(|| {
             let around = own.iter().flat_map(|&n| &neighbours[n as usize]);
             around.map(|&n| cluster[n as usize]).find(|&c| c != NONE && c != label)
         });

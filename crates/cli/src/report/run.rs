@@ -226,8 +226,8 @@ fn speed(out: &mut String, summary: &Summary) {
         return;
     };
     row(out, "rolling", &digits(Some(rolling), 3), "s", "of which");
-    for name in ["internal_force", "nodes", "contact", "boundary", "output"] {
-        if let Some(seconds) = stage(name) {
+    for name in ["internal_force", "nodes", "contact", "boundary", "exchange", "output"] {
+        if let Some(seconds) = stage(name).filter(|s| *s > 0.0) {
             let label = format!("  {}", name.replace('_', " "));
             let share = format!("{:5.1} %", 100.0 * seconds / rolling);
             row(out, &label, &digits(Some(seconds), 3), "s", &share);

@@ -137,6 +137,7 @@ pub(crate) fn summary(
             ("contact", seconds(timers.contact)),
             ("boundary", seconds(timers.boundary)),
             ("nodes", seconds(timers.nodes)),
+            ("exchange", seconds(timers.exchange)),
             ("output", seconds(ending.output)),
             ("checkpoints", seconds(ending.keeping)),
         ]
