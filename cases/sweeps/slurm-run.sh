@@ -14,5 +14,5 @@
 set -euo pipefail
 case="${1:?usage: slurm-run.sh CASE [options of creepage run]}"
 shift
-# as many processes as the job has tasks; bound to a core each, as Open MPI does by itself, they could not use more threads
+# as many processes as the job has tasks; Open MPI may bind a process to one core, where it could not use more threads
 exec mpirun --bind-to none "${CREEPAGE:-creepage}" run "$case" --threads "${SLURM_CPUS_PER_TASK:-1}" --resume --force "$@"

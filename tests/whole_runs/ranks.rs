@@ -50,8 +50,11 @@ fn dealt_out(case: &Case, size: u32) -> Partition {
 fn shared_has_the_bits_of_one(case: &Case) {
     let alone = run(case, 1);
     assert!(alone.data["contact/shear/0001"].iter().any(|x| *x != 0.0));
+    assert_eq!(alone.number("/stages/exchange"), 0.0);
     for size in [2, 3, 4] {
-        same_bits(&alone, &results_of(case, size, None));
+        let shared = results_of(case, size, None);
+        same_bits(&alone, &shared);
+        assert!(shared.number("/stages/exchange") > 0.0);
     }
     for size in [2, 4] {
         same_bits(&alone, &results_of(case, size as usize, Some(dealt_out(case, size))));
@@ -84,17 +87,19 @@ fn half_a_wheel_has_the_same_bits_on_any_processes() {
 
 #[test]
 fn a_zone_that_follows_the_contact_has_the_same_bits_on_any_processes() {
+    let window = ["mesh.window=0.0096", "time.roll=0.002", "output.probes.bar=[[0.001, 0.0]]"];
     let surface = "bar.surface={ formula = \"2e-6*cos(2*pi*x/0.008)\" }";
-    let sets =
-        ["mesh.window=0.0096", "time.roll=0.002", "output.probes.bar=[[0.001, 0.0]]", surface];
-    let case = load(&project("tests/small.toml"), &sets);
-    let alone = run(&case, 1);
-    let travelled = &alone.data["history/window_x"];
-    assert!(travelled.windows(2).any(|x| x[1] > x[0]));
-    for size in [2, 4] {
-        same_bits(&alone, &results_of(&case, size, None));
+    let penalty = [&window[..], &[surface]].concat();
+    let exact = [&window[..], &runs::kill::EXACT_WITH_MEMORY, &["mesh.symmetry=half"]].concat();
+    for sets in [penalty, exact] {
+        let case = load(&project("tests/small.toml"), &sets);
+        let alone = run(&case, 1);
+        let travelled = &alone.data["history/window_x"];
+        assert!(travelled.windows(2).any(|x| x[1] > x[0]));
+        for (size, partition) in [(2, None), (4, None), (3, Some(dealt_out(&case, 3)))] {
+            same_bits(&alone, &results_of(&case, size, partition));
+        }
     }
-    same_bits(&alone, &results_of(&case, 3, Some(dealt_out(&case, 3))));
 }
 
 #[test]

@@ -21,7 +21,7 @@ mod tests;
 pub mod wheel_on_rail;
 
 // there is one scenario of finite elements; with a second one, these functions choose by the case
-pub use disk_on_bar::{model, restart, restart_in_place, start};
+pub use disk_on_bar::{model, restart, restart_without_moves, start};
 pub use error::{MeshFileError, ScenarioError};
 pub use half_space::{HalfSpaceModel, SurfacePoints, drive, half_space, position};
 pub use model::{BAR, DISK, Model};

@@ -26,6 +26,13 @@ pub trait Ranks: Debug + Send + Sync {
     /// Replaces each of the `words` by its sum over all processes.
     fn add(&self, words: &mut [i64]);
 
+    /// Whether all processes are `ready`.
+    fn all(&self, ready: bool) -> bool {
+        let mut unready = [i64::from(!ready)];
+        self.add(&mut unready);
+        unready == [0]
+    }
+
     /// What process 0 says here.
     fn tell(&self, word: u64) -> u64;
 

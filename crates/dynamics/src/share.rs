@@ -4,7 +4,8 @@
 //! the whole, so that the forces on its nodes have the bits of one process alone. Velocities of the nodes that its elements have
 //! besides come from their owners after every step, and displacements follow from them as they do there. Sums
 //! are exact, and travel so. Process 0 has the contact: the others send it the forces on their nodes of both surfaces, and it
-//! sends those that contact loads back with the forces of contact. It also leads: the others do what it tells them.
+//! sends those that contact loads back with the forces of contact. Where the mesh follows the patch, process 0 moves it, and the others
+//! take the state after the move. It also leads: the others do what it tells them.
 
 use crate::nodal_state::NodalState;
 use crate::partition::{CHUNK, Partition};
@@ -43,7 +44,7 @@ pub(crate) struct Share {
     /// Whether this process has all displacements and velocities.
     complete: bool,
     words: Vec<i64>,
-    /// How long it has waited for others since that was taken.
+    /// How long it has waited for others in steps since that was last taken.
     waited: Duration,
 }
 
@@ -165,7 +166,7 @@ impl Share {
         self.partition.owner(node) == self.ranks.rank()
     }
 
-    /// How long it has waited for others since this was asked.
+    /// How long it has waited for others in steps since this was last asked.
     pub(crate) fn take_waited(&mut self) -> Duration {
         std::mem::take(&mut self.waited)
     }
@@ -475,13 +476,15 @@ impl Simulation {
     /// # Errors
     /// None but by a fault of the program: a state of process 0 that this one cannot be in.
     pub fn assist(&mut self) -> Result<(), RestoreError> {
+        let mut taken = Ok(());
         loop {
             match self.share.as_ref().map(|share| share.ranks.tell(0)) {
                 Some(STEP) => drop(self.step(false)),
                 Some(STEP_AND_READ) => drop(self.step(true)),
                 Some(GATHER) => self.gather(),
-                Some(TAKE_STATE) => self.share_state()?,
-                _ => return Ok(()),
+                // process 0 then ends the simulation too
+                Some(TAKE_STATE) => taken = self.share_state(),
+                _ => return taken,
             }
         }
     }
@@ -494,21 +497,20 @@ impl Simulation {
         let mut bytes = Vec::new();
         let mut taken = Ok(());
         if ranks.rank() == 0 {
-            ranks.tell(TAKE_STATE);
             let state = SimulationState { contact: None, ..self.snapshot() };
             bytes = postcard::to_allocvec(&state)?;
+            ranks.tell(TAKE_STATE);
             ranks.broadcast(&mut bytes);
         } else {
             ranks.broadcast(&mut bytes);
             let state: Result<SimulationState, _> = postcard::from_bytes(&bytes);
             taken = state.map_err(RestoreError::from).and_then(|state| self.restore(&state));
         }
-        let mut failed = [i64::from(taken.is_err())];
-        ranks.add(&mut failed);
+        let all = ranks.all(taken.is_ok());
         if let Some(share) = &mut self.share {
             share.complete = true;
         }
-        if failed[0] == 0 { Ok(()) } else { taken.and(Err(RestoreError::Process)) }
+        if all { Ok(()) } else { taken.and(Err(RestoreError::Process)) }
     }
 
     /// Brings displacements and velocities of all nodes to process 0. Between steps it has those of its own elements and of

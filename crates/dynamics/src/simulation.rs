@@ -39,7 +39,8 @@ pub struct Timers {
     pub boundary: Duration,
     /// Velocity and position of nodes and hub, mass damping.
     pub nodes: Duration,
-    /// Waiting for the other processes, where several share the steps, and what they send.
+    /// Where several processes share the steps: how long process 0 waits in them for the others and for messages. What is gathered for
+    /// records, and moves of the mesh, are not in it.
     pub exchange: Duration,
 }
 

@@ -58,7 +58,7 @@ pub enum RestoreError {
     #[error(transparent)]
     Contact(#[from] StateError),
     /// The state came from another process in another form.
-    #[error("the state of process 0 cannot be read")]
+    #[error("the state of process 0 has another form")]
     Form(#[from] postcard::Error),
     /// Another process cannot go on from it.
     #[error("another process cannot go on from the state of process 0")]

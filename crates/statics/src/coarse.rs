@@ -15,10 +15,10 @@ use solid::linear::AMPLITUDE;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-/// Nodes per cluster: a larger number makes the coarse level cheaper and the iterations more.
+/// Least nodes of a full cluster: a larger number makes the coarse level cheaper and the iterations more.
 const CLUSTER: usize = 250;
 
-/// Most clusters, but for those that do not fill: the work of the factor grows with the square of their number.
+/// Most full clusters: the work of the factor grows with the square of their number.
 const MOST: usize = 5000;
 
 /// Clusters smaller than this part of a full one join a neighbour.
@@ -293,6 +293,11 @@ fn edges(mesh: &Mesh) -> Vec<Vec<u32>> {
     ends
 }
 
+/// Nodes of a full cluster of so many nodes.
+fn full_cluster(nodes: usize) -> usize {
+    CLUSTER.max(nodes.div_ceil(MOST))
+}
+
 /// Cluster of each free node, and how many there are: from the first node left, the nearest along
 /// edges until the cluster is full.
 fn clusters(
@@ -301,7 +306,7 @@ fn clusters(
     is_free: impl Fn(usize) -> bool,
 ) -> (Vec<u32>, usize) {
     let n = reference.len();
-    let full = CLUSTER.max(n.div_ceil(MOST));
+    let full = full_cluster(n);
     let mut cluster = vec![NONE; n];
     let mut members: Vec<Vec<u32>> = Vec::new();
     let mut heap = BinaryHeap::new();
@@ -392,4 +397,14 @@ fn factor(unknowns: usize, matrix: &BTreeMap<(u32, u32), Block>) -> Option<Facto
         columns.push(rows.len() as u32);
     }
     Factor::new(&columns, &rows, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn clusters_grow_with_meshes_above_1_25_million_nodes() {
+        assert_eq!([1_000, 1_250_000, 5_000_000].map(full_cluster), [250, 250, 1000]);
+    }
 }

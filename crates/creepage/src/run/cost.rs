@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::case::schema::Case;
 use crate::run::disk::Disk;
-use crate::scenario::{Cost, InitialState, Model, ScenarioError, restart_in_place};
+use crate::scenario::{Cost, InitialState, Model, ScenarioError, restart_without_moves};
 use dynamics::Simulation;
 use friction::Kind;
 use mesh::Padded;
@@ -26,7 +26,7 @@ pub(crate) fn cost(
         return Ok(None);
     }
     let snapshot = simulation.snapshot();
-    let mut copy = restart_in_place(case, model, facts.found(), &snapshot)?.simulation;
+    let mut copy = restart_without_moves(case, model, facts.found(), &snapshot)?.simulation;
     let each = seconds_each(|| {
         copy.step(false);
     });

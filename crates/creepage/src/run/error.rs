@@ -64,6 +64,11 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// Of processes that cannot go on together: a fault of the program.
+    pub(crate) fn of_processes(error: dynamics::RestoreError) -> Self {
+        Self::Process { reason: error.to_string() }
+    }
+
     /// The dotted path of the key of the case that the error is about, where it is about one.
     pub fn key(&self) -> Option<&'static str> {
         match self {

@@ -60,13 +60,16 @@ pub fn run(
     if let Err(RunError::Output(error)) = &result
         && (options.resume && options.force)
         && error.damaged().is_some()
+        && !options.leader.as_ref().is_some_and(|leader| leader.has_shared())
     {
         // found only when the files were opened to be extended
         tracing::warn!("{error}; the run begins at its start");
         let anew = RunOptions { resume: false, ..options.clone() };
         result = pool.install(|| run_in_pool(case, &anew, stop, observe));
     }
-    if let Err(error @ (RunError::Output(_) | RunError::Text(_))) = &result {
+    if let Err(error @ (RunError::Output(_) | RunError::Text(_) | RunError::Process { .. })) =
+        &result
+    {
         // as far as that is possible where files could not be written
         let _ = Log::append(options.folder(case).join(file::LOG))
             .and_then(|mut log| log.say(&format!("{LOG_END}Failed, {error}")));

@@ -2,9 +2,9 @@
 
 use crate::case::schema::Case;
 use crate::run::error::RunError;
-use crate::run::log::{Log, REFUSED};
+use crate::run::log::Log;
 use crate::run::options::RunOptions;
-use crate::scenario::{InitialState, KeptState, Model, ScenarioError, model, restart_in_place};
+use crate::scenario::{InitialState, KeptState, Model, model, restart_without_moves};
 use dynamics::{Partition, Ranks, ShareSize, Simulation, SimulationState, share_sizes};
 use output::layout::file;
 use serde::{Deserialize, Serialize};
@@ -42,6 +42,11 @@ impl Leader {
     /// The first of these processes.
     pub fn new(ranks: Arc<dyn Ranks>) -> Self {
         Self { ranks, shared: AtomicBool::new(false) }
+    }
+
+    /// Whether the other processes have got their share: they end with the run, and share no second one.
+    pub(super) fn has_shared(&self) -> bool {
+        self.shared.load(Ordering::Relaxed)
     }
 
     /// Whether the steps of a case can be shared.
@@ -82,15 +87,9 @@ impl Leader {
             },
         };
         let mut bytes = output::bytes_of(&shared)?;
-        if self.shared.swap(true, Ordering::Relaxed) {
-            let reason = "the other processes have ended: start all of them again".into();
-            return Err(RunError::Process { reason });
-        }
+        self.shared.store(true, Ordering::Relaxed);
         self.ranks.broadcast(&mut bytes);
-        agree(&self.ranks, true).or_else(|error| {
-            log.say(&format!("{REFUSED}{error}"))?;
-            Err(error)
-        })?;
+        agree(&self.ranks, true)?;
         let sizes = simulation.take_share(self.ranks.clone(), shared.partition);
         Ok(log.say(&SharedWork::of(&sizes, model.mesh.hexes.len()).line())?)
     }
@@ -98,7 +97,7 @@ impl Leader {
 
 impl Drop for Leader {
     fn drop(&mut self) {
-        if !self.shared.load(Ordering::Relaxed) {
+        if !self.has_shared() {
             self.ranks.broadcast(&mut Vec::new());
         }
     }
@@ -122,7 +121,7 @@ pub fn assist(ranks: &Arc<dyn Ranks>, threads: usize) -> Result<(), RunError> {
         let (mut simulation, partition) = made?;
         if agreed.is_ok() {
             simulation.take_share(ranks.clone(), partition);
-            simulation.assist().map_err(ScenarioError::from)?;
+            simulation.assist().map_err(RunError::of_processes)?;
         }
         // where another process is not ready, that says why
         Ok(())
@@ -141,15 +140,13 @@ fn simulation(shared: &SharedRun) -> Result<Simulation, RunError> {
             }
         })?;
     let found = shared.found.clone();
-    Ok(restart_in_place(&case, &model, found, &shared.simulation)?.simulation)
+    Ok(restart_without_moves(&case, &model, found, &shared.simulation)?.simulation)
 }
 
 /// Whether all processes are `ready`.
 fn agree(ranks: &Arc<dyn Ranks>, ready: bool) -> Result<(), RunError> {
-    let mut unready = [i64::from(!ready)];
-    ranks.add(&mut unready);
     let reason = || "another process could not set up the run, and says why".into();
-    if unready[0] == 0 { Ok(()) } else { Err(RunError::Process { reason: reason() }) }
+    if ranks.all(ready) { Ok(()) } else { Err(RunError::Process { reason: reason() }) }
 }
 
 /// How processes share the work of a step.

@@ -12,4 +12,4 @@ mod through_meshio;
 mod window;
 
 pub use bodies::{elements, model};
-pub use start::{restart, restart_in_place, stable_limit, start};
+pub use start::{restart, restart_without_moves, stable_limit, start};

@@ -8,9 +8,9 @@ use crate::run::held::FolderLock;
 use crate::run::means::Means;
 use crate::run::options::RunOptions;
 use crate::run::record::{RecordBasis, Recorder};
+use crate::scenario::InitialState;
 use crate::scenario::progress::{Progress, Stage};
 use crate::scenario::remedy::Remedy;
-use crate::scenario::{InitialState, ScenarioError};
 use dynamics::{Diagnosis, Energies, Moved, Simulation, StepReport};
 use output::summary::Status;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -110,7 +110,7 @@ impl<'a> TimeLoop<'a> {
             if stops {
                 return Ok(Stopped { status: Status::Interrupted, diagnosis: None, guard: None });
             }
-            let moved = self.simulation.move_window().map_err(ScenarioError::from)?;
+            let moved = self.simulation.move_window().map_err(RunError::of_processes)?;
             if let Some(Moved { lost: lost @ 1.. }) = moved {
                 return Ok(self.left_behind(lost));
             }

@@ -227,11 +227,12 @@ pub fn restart(
     set_up(case, model, found, state, (solid, window))
 }
 
-/// The same for steps alone: where another process moves a zone that follows the contact, or none does.
+/// The same without the moves of a zone that follows the contact: for a process that takes the state after a move from
+/// another, and for a copy that only times steps.
 ///
 /// # Errors
 /// Those of [`restart`].
-pub fn restart_in_place(
+pub fn restart_without_moves(
     case: &Case,
     model: &Model,
     found: KeptState,
