@@ -13,7 +13,7 @@
 
 mod blocks;
 mod centrifugal;
-mod count;
+mod device;
 mod formulation;
 mod full;
 mod full_stiffness;
@@ -26,6 +26,7 @@ pub mod linear;
 mod mass;
 mod material;
 mod peak;
+mod record;
 mod solid;
 mod stable;
 mod stiffness;
@@ -34,6 +35,7 @@ mod tensor;
 
 pub use blocks::FULL_COST;
 pub use centrifugal::Centrifugal;
+pub use device::{DeviceElements, DeviceKind};
 pub use formulation::{Element, Elements, Formulation, Volumetric};
 pub use geometry::{displacement_gradient, mean_gradient, nodal_gradients, surface_derivatives};
 pub use lanes::Level;

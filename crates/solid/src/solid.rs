@@ -1,7 +1,7 @@
 //! All bodies as one assembly of elements: internal force, energies, stiffness product, stress.
 
 use crate::blocks::{Batch, Block, Blocks, Pieces};
-use crate::count::work;
+use crate::device::DeviceElements;
 use crate::formulation::{Element, Elements, Formulation, Volumetric};
 use crate::full::FullyIntegrated;
 use crate::gauss::gauss_points;
@@ -13,6 +13,7 @@ use crate::lanes::neon;
 use crate::lanes::x86;
 use crate::lanes::{Four, Level};
 use crate::material::{Material, MaterialError};
+use crate::record::Recorded;
 use crate::stress::{deformation, mean_cauchy, one_point_cauchy};
 use exact_sum::ExactSum;
 use mesh::{Mesh, Padded};
@@ -225,10 +226,24 @@ impl Solid {
     /// multiply-addition is two, a division one.
     pub fn flops(&self) -> u64 {
         let of = |block: &Block| {
-            let done = work(block.full.then_some(self.volumetric), false, self.viscous);
+            let done = self.recorded(block.full).record(&self.constants[block.body][0]).work();
             u64::from(done.flops()) * block.elements as u64
         };
         self.blocks.blocks.iter().map(of).sum()
+    }
+
+    /// What is recorded of an element in a step without energies.
+    fn recorded(&self, full: bool) -> Recorded {
+        let full = full.then_some(self.volumetric);
+        Recorded { full, energies: false, viscous: self.viscous }
+    }
+
+    /// What a device needs to compute the internal force as this solid does.
+    pub fn on_device(&self) -> DeviceElements {
+        let text = |body: usize, full: bool| {
+            self.recorded(full).record(&self.constants[body][usize::from(full)]).to_string()
+        };
+        DeviceElements::new(&self.blocks, self.reference.len(), text)
     }
 
     /// Number of elements.

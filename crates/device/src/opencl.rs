@@ -1,0 +1,173 @@
+//! The kernels on a device of OpenCL.
+
+use crate::program;
+use mesh::Padded;
+use opencl3::command_queue::CommandQueue;
+use opencl3::context::Context;
+use opencl3::device::{CL_DEVICE_TYPE_ALL, Device, get_all_devices};
+use opencl3::error_codes::ClError;
+use opencl3::kernel::{ExecuteKernel, Kernel};
+use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
+use opencl3::program::Program;
+use opencl3::types::CL_BLOCKING;
+use solid::{DeviceElements, Solid};
+use std::ptr::null_mut;
+use thiserror::Error;
+
+/// Why a device cannot be used.
+#[derive(Debug, Error)]
+pub enum DeviceError {
+    /// There is no driver, or it has no device.
+    #[error("there is no device of OpenCL here")]
+    None,
+    /// A call that failed.
+    #[error("the device failed: {0}")]
+    Call(#[from] ClError),
+    /// Kernels that its compiler refuses.
+    #[error("the kernels do not compile: {0}")]
+    Program(String),
+}
+
+/// The bodies on a device.
+pub struct Bodies {
+    queue: CommandQueue,
+    elements: DeviceElements,
+    element_kernels: Vec<Kernel>,
+    subtract_forces: Kernel,
+    advance: Kernel,
+    corner_nodes: Buffer<u32>,
+    begin: Buffer<u32>,
+    places: Buffer<u32>,
+    reference: Buffer<Padded>,
+    displacement: Buffer<Padded>,
+    velocity: Buffer<Padded>,
+    force: Buffer<Padded>,
+    inverse_mass: Buffer<f64>,
+    corners: Buffer<f64>,
+    nodes: usize,
+    _program: Program,
+    _context: Context,
+}
+
+impl Bodies {
+    /// The bodies of `solid` on the first device that there is, at rest, with these inverse masses (1/kg).
+    pub fn new(solid: &Solid, inverse_mass: &[f64]) -> Result<Self, DeviceError> {
+        let device = get_all_devices(CL_DEVICE_TYPE_ALL).map_err(|_| DeviceError::None)?;
+        let device = Device::new(*device.first().ok_or(DeviceError::None)?);
+        let context = Context::from_device(&device)?;
+        let queue = CommandQueue::create_default_with_properties(&context, 0, 0)?;
+        let elements = solid.on_device();
+        let text = program::text(program::OPENCL, &elements);
+        let program = Program::create_and_build_from_source(&context, &text, "-cl-std=CL1.2")
+            .map_err(DeviceError::Program)?;
+        let kernel = |name: &str| Kernel::create(&program, name);
+        let nodes = solid.reference().len();
+        let rest = vec![Padded::ZERO; nodes];
+        let element_kernels =
+            (0..elements.kinds.len()).map(|kind| kernel(&format!("elements_{kind}")));
+        Ok(Self {
+            element_kernels: element_kernels.collect::<Result<_, _>>()?,
+            subtract_forces: kernel("subtract_forces")?,
+            advance: kernel("advance")?,
+            corner_nodes: filled(&context, &queue, &elements.nodes)?,
+            begin: filled(&context, &queue, &elements.begin)?,
+            places: filled(&context, &queue, &elements.places)?,
+            reference: filled(&context, &queue, solid.reference())?,
+            displacement: filled(&context, &queue, &rest)?,
+            velocity: filled(&context, &queue, &rest)?,
+            force: filled(&context, &queue, &rest)?,
+            inverse_mass: filled(&context, &queue, inverse_mass)?,
+            corners: filled(&context, &queue, &vec![0.0; 3 * elements.nodes.len()])?,
+            nodes,
+            elements,
+            queue,
+            _program: program,
+            _context: context,
+        })
+    }
+
+    /// Sets displacements (m) and velocities (m/s).
+    pub fn set(&mut self, displacement: &[Padded], velocity: &[Padded]) -> Result<(), DeviceError> {
+        write(&self.queue, &mut self.displacement, displacement)?;
+        write(&self.queue, &mut self.velocity, velocity)
+    }
+
+    /// Displacements, velocities and forces (N).
+    pub fn get(&self) -> Result<[Vec<Padded>; 3], DeviceError> {
+        let mut fields = [(); 3].map(|()| vec![Padded::ZERO; self.nodes]);
+        for (buffer, field) in
+            [&self.displacement, &self.velocity, &self.force].into_iter().zip(&mut fields)
+        {
+            // SAFETY: the buffer has as many vectors, and the call blocks until they are here.
+            unsafe { self.queue.enqueue_read_buffer(buffer, CL_BLOCKING, 0, field, &[])? };
+        }
+        Ok(fields)
+    }
+
+    /// Subtracts the internal force.
+    pub fn subtract_internal_force(&mut self) -> Result<(), DeviceError> {
+        let count = (self.elements.nodes.len() / 8) as u32;
+        for (kernel, kind) in self.element_kernels.iter().zip(&self.elements.kinds) {
+            // SAFETY: the arguments are those of the text, and no kernel reads or writes beyond its buffers: node numbers are
+            // of the mesh, and there are 24 numbers for each element.
+            unsafe {
+                ExecuteKernel::new(kernel)
+                    .set_arg(&(kind.first as u32))
+                    .set_arg(&(kind.count as u32))
+                    .set_arg(&count)
+                    .set_arg(&self.corner_nodes)
+                    .set_arg(&self.reference)
+                    .set_arg(&self.displacement)
+                    .set_arg(&self.velocity)
+                    .set_arg(&self.corners)
+                    .set_global_work_size(kind.count)
+                    .enqueue_nd_range(&self.queue)?;
+            }
+        }
+        // SAFETY: as before; `places` are within the corners, `begin` within `places`.
+        unsafe {
+            ExecuteKernel::new(&self.subtract_forces)
+                .set_arg(&(self.nodes as u32))
+                .set_arg(&count)
+                .set_arg(&self.begin)
+                .set_arg(&self.places)
+                .set_arg(&self.corners)
+                .set_arg(&self.force)
+                .set_global_work_size(self.nodes)
+                .enqueue_nd_range(&self.queue)?;
+        }
+        Ok(())
+    }
+
+    /// Central difference with a step `dt` (s); clears the forces.
+    pub fn advance(&mut self, dt: f64) -> Result<(), DeviceError> {
+        // SAFETY: as in `subtract_internal_force`; all nodal arrays have as many entries as there are nodes.
+        unsafe {
+            ExecuteKernel::new(&self.advance)
+                .set_arg(&(self.nodes as u32))
+                .set_arg(&dt)
+                .set_arg(&self.inverse_mass)
+                .set_arg(&self.force)
+                .set_arg(&self.displacement)
+                .set_arg(&self.velocity)
+                .set_global_work_size(self.nodes)
+                .enqueue_nd_range(&self.queue)?;
+        }
+        Ok(())
+    }
+}
+
+/// A buffer that holds `values`.
+fn filled<T>(context: &Context, queue: &CommandQueue, values: &[T]) -> Result<Buffer<T>, DeviceError> {
+    // SAFETY: no memory of the host is given.
+    let mut buffer =
+        unsafe { Buffer::create(context, CL_MEM_READ_WRITE, values.len().max(1), null_mut())? };
+    write(queue, &mut buffer, values)?;
+    Ok(buffer)
+}
+
+fn write<T>(queue: &CommandQueue, buffer: &mut Buffer<T>, values: &[T]) -> Result<(), DeviceError> {
+    // SAFETY: the buffer has room for as many values, and the call blocks until they are there.
+    unsafe { queue.enqueue_write_buffer(buffer, CL_BLOCKING, 0, values, &[])? };
+    Ok(())
+}
