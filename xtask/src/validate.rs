@@ -14,7 +14,7 @@ use crate::step::{
 use crate::{book, book_test, markdown, results, sources, structure, wheel};
 
 /// The steps, cheapest first.
-pub const STEPS: [(&str, Step); 21] = [
+pub const STEPS: [(&str, Step); 22] = [
     ("format", |root| cargo(root, &["fmt", "--all", "--check"], &[])),
     ("links", |root| without(&markdown::broken(root))),
     ("spelling", sources::spelling),
@@ -27,6 +27,7 @@ pub const STEPS: [(&str, Step); 21] = [
     ("smoke run", smoke_run),
     ("libhdf5", libhdf5),
     ("shared runs", shared_runs),
+    ("kernels on a device", device_kernels),
     ("tables of the documents", results::step),
     ("report page", report_page),
     ("sweep through Dask", |root| with_program(root, "check_dask.py")),
@@ -40,11 +41,12 @@ pub const STEPS: [(&str, Step); 21] = [
 ];
 
 /// The parts of the continuous integration that alone make these steps; all others are made by all.
-const IN_TURN: [(&str, [usize; 2]); 5] = [
+const IN_TURN: [(&str, [usize; 2]); 6] = [
     ("documentation", [0, 4]),
     ("other machines", [1, 3]),
     ("libhdf5", [0, 3]),
     ("shared runs", [4, 4]),
+    ("kernels on a device", [4, 4]),
     ("book", [2, 5]),
 ];
 
@@ -171,6 +173,18 @@ fn shared_runs(root: &Path) -> Ended {
         return skipped("there is no mpirun (Debian: libopenmpi-dev, libclang-dev); shared runs");
     }
     let test = "test --release --workspace --features creepage/mpi --test processes";
+    cargo(root, &test.split(' ').collect::<Vec<_>>(), &[])
+}
+
+/// Has a device of OpenCL, which may be a processor, compute the elements, and compares their bits. Machines without one skip this.
+fn device_kernels(root: &Path) -> Ended {
+    let mut drivers = std::fs::read_dir("/etc/OpenCL/vendors").into_iter().flatten();
+    if drivers.next().is_none() {
+        return skipped(
+            "there is no driver of OpenCL (Debian: pocl-opencl-icd); kernels on a device",
+        );
+    }
+    let test = "test --release --workspace --features creepage-device/gpu --test opencl";
     cargo(root, &test.split(' ').collect::<Vec<_>>(), &[])
 }
 

@@ -3,6 +3,6 @@
 //! The kernels of the elements are those of `solid`, recorded operation by operation; a node adds what its elements exert in the
 //! processor's order. So the bits are those of [`solid::Level::pinned`].
 
-#[cfg(feature = "opencl")]
+#[cfg(feature = "gpu")]
 pub mod opencl;
 pub mod program;

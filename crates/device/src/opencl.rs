@@ -46,7 +46,7 @@ pub struct Bodies {
     corners: Buffer<f64>,
     nodes: usize,
     _program: Program,
-    _context: Context,
+    context: Context,
 }
 
 impl Bodies {
@@ -82,7 +82,7 @@ impl Bodies {
             elements,
             queue,
             _program: program,
-            _context: context,
+            context,
         })
     }
 
@@ -102,6 +102,16 @@ impl Bodies {
             unsafe { self.queue.enqueue_read_buffer(buffer, CL_BLOCKING, 0, field, &[])? };
         }
         Ok(fields)
+    }
+
+    /// The name of the device.
+    pub fn device(&self) -> Result<String, DeviceError> {
+        Ok(Device::new(self.context.default_device()).name()?)
+    }
+
+    /// Waits until the device has done all that it was given.
+    pub fn finish(&self) -> Result<(), DeviceError> {
+        Ok(self.queue.finish()?)
     }
 
     /// Subtracts the internal force.
@@ -158,7 +168,11 @@ impl Bodies {
 }
 
 /// A buffer that holds `values`.
-fn filled<T>(context: &Context, queue: &CommandQueue, values: &[T]) -> Result<Buffer<T>, DeviceError> {
+fn filled<T>(
+    context: &Context,
+    queue: &CommandQueue,
+    values: &[T],
+) -> Result<Buffer<T>, DeviceError> {
     // SAFETY: no memory of the host is given.
     let mut buffer =
         unsafe { Buffer::create(context, CL_MEM_READ_WRITE, values.len().max(1), null_mut())? };

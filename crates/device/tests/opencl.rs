@@ -1,5 +1,5 @@
 //! On a device of OpenCL, such as pocl's: the bits of the processor.
-#![cfg(feature = "opencl")]
+#![cfg(feature = "gpu")]
 #![allow(clippy::unwrap_used)]
 
 use device::opencl::Bodies;
@@ -47,19 +47,13 @@ fn has_the_bits_of_the_processor(elements: impl Fn(&[bool]) -> Elements<'_>, vis
 }
 
 #[test]
-fn one_point_elements_have_the_bits_of_the_processor() {
-    has_the_bits_of_the_processor(
-        |_| Elements::from(Element { hourglass: 0.05 }),
-        Viscosity::default(),
-    );
-}
-
-#[test]
-fn viscous_and_mixed_elements_have_the_bits_of_the_processor() {
+fn elements_and_nodes_have_the_bits_of_the_processor() {
+    let one_point = Element { hourglass: 0.05 };
+    has_the_bits_of_the_processor(|_| Elements::from(one_point), Viscosity::default());
     let viscosity = Viscosity { bulk_linear: 0.06, bulk_quadratic: 1.2, kelvin_voigt: 2e-8 };
     for volumetric in [Volumetric::Full, Volumetric::Mean] {
         has_the_bits_of_the_processor(
-            |some| Elements::mixed(Element { hourglass: 0.05 }, some, volumetric),
+            |some| Elements::mixed(one_point, some, volumetric),
             viscosity,
         );
     }

@@ -10,7 +10,7 @@ const PART: usize = 4;
 /// Elements of one body and one formulation.
 #[derive(Clone, Debug)]
 pub struct DeviceKind {
-    /// The first of them, and how many they are.
+    /// The first of them.
     pub first: usize,
     /// How many they are.
     pub count: usize,
@@ -35,11 +35,7 @@ pub struct DeviceElements {
 
 impl DeviceElements {
     /// Of `blocks` over so many nodes; `text` gives that of a body and formulation.
-    pub(crate) fn new(
-        blocks: &Blocks,
-        nodes: usize,
-        text: impl Fn(usize, bool) -> String,
-    ) -> Self {
+    pub(crate) fn new(blocks: &Blocks, nodes: usize, text: impl Fn(usize, bool) -> String) -> Self {
         let mut elements = Self::default();
         let count: usize = blocks.blocks.iter().map(|block| block.elements).sum();
         elements.nodes = vec![0; 8 * count];

@@ -1,0 +1,71 @@
+//! How fast a device of OpenCL steps a block of steel, after a comparison with the processor, bit by bit.
+//!
+//! `speed [elements along an edge ...]`; for each element and node the kernels of the elements move 288 bytes, the sum over the elements of a
+//! node 292, central difference 200.
+
+#![allow(clippy::unwrap_used)]
+
+use device::opencl::Bodies;
+use mesh::Padded;
+use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
+use std::time::Instant;
+
+const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
+const STEPS: u32 = 50;
+
+/// Bytes that central difference moves for a node.
+const ADVANCE: f64 = 200.0;
+
+fn main() {
+    let edges: Vec<usize> = std::env::args().skip(1).map(|n| n.parse().unwrap()).collect();
+    for n in if edges.is_empty() { vec![50, 100, 126] } else { edges } {
+        for (name, elements) in [
+            ("one-point", Elements::from(Element { hourglass: 0.05 })),
+            ("fully integrated", Elements::from(Volumetric::Mean)),
+        ] {
+            step(n, name, elements);
+        }
+    }
+}
+
+fn step(n: usize, name: &str, elements: Elements<'_>) {
+    let mesh = mesh::block([n; 3], [1e-3 * n as f64; 3]);
+    let mut solid =
+        Solid::new(&mesh, &[STEEL], elements, Viscosity::default(), Level::pinned()).unwrap();
+    let mass = solid::lumped_mass(&mesh, &[STEEL.density]);
+    let inverse_mass: Vec<f64> = mass.iter().map(|m| 1.0 / m).collect();
+    let field = |scale: f64| -> Vec<Padded> {
+        let value = |x: &Padded| Padded::new(x.xyz().map(|x| scale * (x - 0.4 * x * x)));
+        solid.reference().iter().map(value).collect()
+    };
+    let (u, v) = (field(1e-4), field(3.0));
+    let mut bodies = Bodies::new(&solid, &inverse_mass).unwrap();
+    bodies.set(&u, &v).unwrap();
+    bodies.subtract_internal_force().unwrap();
+    let mut force = vec![Padded::ZERO; u.len()];
+    solid.subtract_internal_force(&u, &v, &mut force, false);
+    assert_eq!(bodies.get().unwrap()[2], force, "the bits of the processor");
+
+    let dt = 1e-7;
+    let seconds = |bodies: &mut Bodies, kernels: &dyn Fn(&mut Bodies)| {
+        kernels(bodies);
+        bodies.finish().unwrap();
+        let begun = Instant::now();
+        (0..STEPS).for_each(|_| kernels(bodies));
+        bodies.finish().unwrap();
+        begun.elapsed().as_secs_f64() / f64::from(STEPS)
+    };
+    let step = seconds(&mut bodies, &|bodies| {
+        bodies.subtract_internal_force().unwrap();
+        bodies.advance(dt).unwrap();
+    });
+    let advance = seconds(&mut bodies, &|bodies| bodies.advance(dt).unwrap());
+    let (count, nodes) = (mesh.hexes.len() as f64, mesh.nodes.len() as f64);
+    println!(
+        "{}: {count:.0} {name} elements: {:.0} M element-steps/s, {:.3} ms a step; central difference {:.0} GB/s",
+        bodies.device().unwrap(),
+        1e-6 * count / step,
+        1e3 * step,
+        1e-9 * ADVANCE * nodes / advance,
+    );
+}
