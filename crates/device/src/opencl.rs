@@ -51,7 +51,14 @@ pub struct Bodies {
 
 impl Bodies {
     /// The bodies of `solid` on the first device that there is, at rest, with these inverse masses (1/kg).
+    ///
+    /// # Errors
+    /// No device, or one that fails.
+    ///
+    /// # Panics
+    /// If there are not as many inverse masses as nodes.
     pub fn new(solid: &Solid, inverse_mass: &[f64]) -> Result<Self, DeviceError> {
+        assert_eq!(inverse_mass.len(), solid.reference().len());
         let device = get_all_devices(CL_DEVICE_TYPE_ALL).map_err(|_| DeviceError::None)?;
         let device = Device::new(*device.first().ok_or(DeviceError::None)?);
         let context = Context::from_device(&device)?;
@@ -87,12 +94,18 @@ impl Bodies {
     }
 
     /// Sets displacements (m) and velocities (m/s).
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn set(&mut self, displacement: &[Padded], velocity: &[Padded]) -> Result<(), DeviceError> {
         write(&self.queue, &mut self.displacement, displacement)?;
         write(&self.queue, &mut self.velocity, velocity)
     }
 
     /// Displacements, velocities and forces (N).
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn get(&self) -> Result<[Vec<Padded>; 3], DeviceError> {
         let mut fields = [(); 3].map(|()| vec![Padded::ZERO; self.nodes]);
         for (buffer, field) in
@@ -105,16 +118,25 @@ impl Bodies {
     }
 
     /// The name of the device.
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn device(&self) -> Result<String, DeviceError> {
         Ok(Device::new(self.context.default_device()).name()?)
     }
 
     /// Waits until the device has done all that it was given.
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn finish(&self) -> Result<(), DeviceError> {
         Ok(self.queue.finish()?)
     }
 
     /// Subtracts the internal force.
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn subtract_internal_force(&mut self) -> Result<(), DeviceError> {
         let count = (self.elements.nodes.len() / 8) as u32;
         for (kernel, kind) in self.element_kernels.iter().zip(&self.elements.kinds) {
@@ -150,6 +172,9 @@ impl Bodies {
     }
 
     /// Central difference with a step `dt` (s); clears the forces.
+    ///
+    /// # Errors
+    /// A device that fails.
     pub fn advance(&mut self, dt: f64) -> Result<(), DeviceError> {
         // SAFETY: as in `subtract_internal_force`; all nodal arrays have as many entries as there are nodes.
         unsafe {
