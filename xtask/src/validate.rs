@@ -172,20 +172,20 @@ fn shared_runs(root: &Path) -> Ended {
     if Command::new("mpirun").arg("--version").output().is_err() {
         return skipped("there is no mpirun (Debian: libopenmpi-dev, libclang-dev); shared runs");
     }
-    let test = "test --release --workspace --features creepage/mpi --test processes";
-    cargo(root, &test.split(' ').collect::<Vec<_>>(), &[])
+    feature_test(root, "creepage/mpi", "processes")
 }
 
 /// Has a device of OpenCL, which may be a processor, compute the elements, and compares their bits. Machines without one skip this.
 fn device_kernels(root: &Path) -> Ended {
-    let mut drivers = std::fs::read_dir("/etc/OpenCL/vendors").into_iter().flatten();
-    if drivers.next().is_none() {
-        return skipped(
-            "there is no driver of OpenCL (Debian: pocl-opencl-icd); kernels on a device",
-        );
+    if !std::fs::read_dir("/etc/OpenCL/vendors").is_ok_and(|mut drivers| drivers.next().is_some()) {
+        return skipped("there is no driver of OpenCL (Debian: pocl-opencl-icd); device kernels");
     }
-    let test = "test --release --workspace --features creepage-device/gpu --test opencl";
-    cargo(root, &test.split(' ').collect::<Vec<_>>(), &[])
+    feature_test(root, "creepage-device/gpu", "opencl")
+}
+
+/// Runs a test that needs a feature.
+fn feature_test(root: &Path, feature: &str, test: &str) -> Ended {
+    cargo(root, &["test", "--release", "--workspace", "--features", feature, "--test", test], &[])
 }
 
 /// Has a browser render the report of the smoke run. Machines without one skip this: that pages are
