@@ -8,12 +8,18 @@
 set -euo pipefail
 program="${1:?usage: gpu.sh target/release/examples/speed}"
 beside="$(dirname "$program")"
-[ -e "$beside/libOpenCL.so.1" ] && export OPENCL_DYLIB_PATH="$beside/libOpenCL.so.1"
-# a container often has NVIDIA's driver, but not the file that names it
-if ! ls /etc/OpenCL/vendors/*.icd >/dev/null 2>&1; then
-    icd="$(mktemp -d)"
-    echo libnvidia-opencl.so.1 > "$icd/nvidia.icd"
-    export OCL_ICD_VENDORS="$icd"
+if [ -e "$beside/libOpenCL.so.1" ]; then
+    export OPENCL_DYLIB_PATH="$beside/libOpenCL.so.1"
 fi
-command -v nvidia-smi >/dev/null && nvidia-smi --query-gpu=name,driver_version --format=csv,noheader
-exec "$program"
+# a container often has NVIDIA's driver, but not the file that names it
+if ! grep -qs nvidia /etc/OpenCL/vendors/*.icd; then
+    vendors="$(mktemp -d)"
+    trap 'rm -r "$vendors"' EXIT
+    echo libnvidia-opencl.so.1 > "$vendors/nvidia.icd"
+    cp /etc/OpenCL/vendors/*.icd "$vendors" 2>/dev/null || true
+    export OCL_ICD_VENDORS="$vendors"
+fi
+if command -v nvidia-smi >/dev/null; then
+    nvidia-smi --query-gpu=name,driver_version --format=csv,noheader
+fi
+"$program"

@@ -41,8 +41,8 @@ for architecture in ("sm_80", "sm_90"):
     for line in compiled(source, architecture).splitlines():
         if match := re.search(r"Compiling entry function '(\w+)'", line):
             kernel = match[1]
-        if match := re.search(r"(\d+) bytes spill stores, (\d+) bytes spill loads", line):
-            spilled = int(match[1]) + int(match[2])
+        if match := re.search(r"(\d+) bytes spill stores", line):
+            spilled = int(match[1])
         if match := re.search(r"Used (\d+) registers", line):
             registers = int(match[1])
             warp = -(-32 * registers // 256) * 256  # registers are given out to warps by 256

@@ -4,7 +4,7 @@ use crate::program;
 use mesh::Padded;
 use opencl3::command_queue::CommandQueue;
 use opencl3::context::Context;
-use opencl3::device::{CL_DEVICE_TYPE_ALL, Device, get_all_devices};
+use opencl3::device::{CL_DEVICE_TYPE_ALL, CL_DEVICE_TYPE_GPU, Device, get_all_devices};
 use opencl3::error_codes::ClError;
 use opencl3::kernel::{ExecuteKernel, Kernel};
 use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
@@ -14,11 +14,17 @@ use solid::{DeviceElements, Solid};
 use std::ptr::null_mut;
 use thiserror::Error;
 
+/// Elements or nodes that a device takes together; with 255 registers each they fill what a multiprocessor of NVIDIA has.
+const GROUP: usize = 256;
+
 /// Why a device cannot be used.
 #[derive(Debug, Error)]
 pub enum DeviceError {
-    /// There is no driver, or it has no device.
-    #[error("there is no device of OpenCL here")]
+    /// There is no driver.
+    #[error("there is no driver of OpenCL here: {0}")]
+    Driver(ClError),
+    /// No device computes in double precision.
+    #[error("no device of OpenCL here computes in double precision")]
     None,
     /// A call that failed.
     #[error("the device failed: {0}")]
@@ -50,7 +56,7 @@ pub struct Bodies {
 }
 
 impl Bodies {
-    /// The bodies of `solid` on the first device that there is, at rest, with these inverse masses (1/kg).
+    /// The bodies of `solid` on a device, a graphics processor if there is one, at rest, with these inverse masses (1/kg).
     ///
     /// # Errors
     /// No device, or one that fails.
@@ -59,8 +65,7 @@ impl Bodies {
     /// If there are not as many inverse masses as nodes.
     pub fn new(solid: &Solid, inverse_mass: &[f64]) -> Result<Self, DeviceError> {
         assert_eq!(inverse_mass.len(), solid.reference().len());
-        let device = get_all_devices(CL_DEVICE_TYPE_ALL).map_err(|_| DeviceError::None)?;
-        let device = Device::new(*device.first().ok_or(DeviceError::None)?);
+        let device = first()?;
         let context = Context::from_device(&device)?;
         let queue = CommandQueue::create_default_with_properties(&context, 0, 0)?;
         let elements = solid.on_device();
@@ -97,7 +102,11 @@ impl Bodies {
     ///
     /// # Errors
     /// A device that fails.
+    ///
+    /// # Panics
+    /// If there are not as many as nodes.
     pub fn set(&mut self, displacement: &[Padded], velocity: &[Padded]) -> Result<(), DeviceError> {
+        assert_eq!([displacement.len(), velocity.len()], [self.nodes; 2]);
         write(&self.queue, &mut self.displacement, displacement)?;
         write(&self.queue, &mut self.velocity, velocity)
     }
@@ -117,12 +126,13 @@ impl Bodies {
         Ok(fields)
     }
 
-    /// The name of the device.
+    /// The name of the device, and whether it is a graphics processor.
     ///
     /// # Errors
     /// A device that fails.
-    pub fn device(&self) -> Result<String, DeviceError> {
-        Ok(Device::new(self.context.default_device()).name()?)
+    pub fn device(&self) -> Result<(String, bool), DeviceError> {
+        let device = Device::new(self.context.default_device());
+        Ok((device.name()?, is_graphics_processor(&device)))
     }
 
     /// Waits until the device has done all that it was given.
@@ -152,7 +162,8 @@ impl Bodies {
                     .set_arg(&self.displacement)
                     .set_arg(&self.velocity)
                     .set_arg(&self.corners)
-                    .set_global_work_size(kind.count)
+                    .set_local_work_size(GROUP)
+                    .set_global_work_size(kind.count.next_multiple_of(GROUP))
                     .enqueue_nd_range(&self.queue)?;
             }
         }
@@ -165,7 +176,8 @@ impl Bodies {
                 .set_arg(&self.places)
                 .set_arg(&self.corners)
                 .set_arg(&self.force)
-                .set_global_work_size(self.nodes)
+                .set_local_work_size(GROUP)
+                .set_global_work_size(self.nodes.next_multiple_of(GROUP))
                 .enqueue_nd_range(&self.queue)?;
         }
         Ok(())
@@ -185,11 +197,24 @@ impl Bodies {
                 .set_arg(&self.force)
                 .set_arg(&self.displacement)
                 .set_arg(&self.velocity)
-                .set_global_work_size(self.nodes)
+                .set_local_work_size(GROUP)
+                .set_global_work_size(self.nodes.next_multiple_of(GROUP))
                 .enqueue_nd_range(&self.queue)?;
         }
         Ok(())
     }
+}
+
+fn is_graphics_processor(device: &Device) -> bool {
+    device.dev_type().is_ok_and(|kind| kind & CL_DEVICE_TYPE_GPU != 0)
+}
+
+/// The first graphics processor with double precision, or else the first device with it.
+fn first() -> Result<Device, DeviceError> {
+    let ids = get_all_devices(CL_DEVICE_TYPE_ALL).map_err(DeviceError::Driver)?;
+    let devices: Vec<Device> = ids.into_iter().map(Device::new).collect();
+    let usable = devices.iter().filter(|device| device.double_fp_config().is_ok_and(|d| d != 0));
+    usable.max_by_key(|device| is_graphics_processor(device)).copied().ok_or(DeviceError::None)
 }
 
 /// A buffer that holds `values`.
@@ -200,7 +225,7 @@ fn filled<T>(
 ) -> Result<Buffer<T>, DeviceError> {
     // SAFETY: no memory of the host is given.
     let mut buffer =
-        unsafe { Buffer::create(context, CL_MEM_READ_WRITE, values.len().max(1), null_mut())? };
+        unsafe { Buffer::create(context, CL_MEM_READ_WRITE, values.len(), null_mut())? };
     write(queue, &mut buffer, values)?;
     Ok(buffer)
 }

@@ -70,7 +70,7 @@ KERNEL elements_{kind}(
     if (INDEX >= count) return;
     const uint element = first + INDEX;
     uint n[8];
-    double f[24], e[3];
+    double f[24];
     for (uint corner = 0; corner < 8; ++corner) n[corner] = nodes[corner * elements + element];
 {}    for (uint i = 0; i < 24; ++i) corners[i * elements + element] = f[i];
 }}

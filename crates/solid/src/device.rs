@@ -2,10 +2,11 @@
 //! forces.
 
 use crate::blocks::{BATCH, Blocks};
+use crate::lanes::{Four, Lanes};
 
 /// Elements that the processor's kernels of [`Level::pinned`](crate::Level::pinned) take at a time; their forces reach a node by
 /// corners, then by elements.
-const PART: usize = 4;
+const PART: usize = Four::N;
 
 /// Elements of one body and one formulation.
 #[derive(Clone, Debug)]
@@ -35,9 +36,14 @@ pub struct DeviceElements {
 
 impl DeviceElements {
     /// Of `blocks` over so many nodes; `text` gives that of a body and formulation.
+    ///
+    /// # Panics
+    /// With more than 178 million elements.
     pub(crate) fn new(blocks: &Blocks, nodes: usize, text: impl Fn(usize, bool) -> String) -> Self {
         let mut elements = Self::default();
         let count: usize = blocks.blocks.iter().map(|block| block.elements).sum();
+        let fits = |numbers: usize| u32::try_from(numbers).is_ok();
+        assert!(fits(24 * count) && fits(4 * nodes), "a device counts by 32 bits");
         elements.nodes = vec![0; 8 * count];
         let mut first_of = Vec::with_capacity(blocks.blocks.len());
         let (mut next, mut last) = (0, None);

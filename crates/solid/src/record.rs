@@ -8,7 +8,7 @@
 use crate::blocks::{BATCH, Batch};
 use crate::formulation::Volumetric;
 use crate::full::FullyIntegrated;
-use crate::kernel::{Arrays, Constants, Kernel, OnePoint, Sums, block_force};
+use crate::kernel::{Arrays, Constants, Kernel, OnePoint, block_force};
 use crate::lanes::{Lanes, operators};
 use mesh::Padded;
 use std::cell::RefCell;
@@ -71,8 +71,6 @@ pub(crate) struct Record {
     operations: Vec<Operation>,
     /// The numbers of those that give what is subtracted from the forces on the corners.
     force: [[usize; 3]; 8],
-    /// Of those that give its energies and viscous power, where they are asked for.
-    sums: [Option<usize>; 3],
 }
 
 /// What is recorded of an element.
@@ -119,11 +117,10 @@ impl Recorded {
         };
         // SAFETY: `Number` needs no special instructions, the batch's indices are those of the eight
         // nodes of each array, and these are local.
-        let sums: Sums = unsafe { block(&[batch], 1, constants, arrays) };
+        unsafe { block(&[batch], 1, constants, arrays) };
         Record {
             operations: OPERATIONS.take(),
             force: force.map(|f| f.xyz().map(|number| number as usize)),
-            sums: sums.map(|number| (number > 0.0).then_some(number as usize)),
         }
     }
 }
@@ -148,8 +145,8 @@ impl Record {
     }
 }
 
-/// Statements that define a number for each operation that a result needs, and set the results: in scope are `n[8]`, the nodes of the
-/// corners, and the arrays, of vectors of four; set are `f[24]`, and `e[3]` where there are sums.
+/// Statements that define a number for each operation, and set the results `f[24]`; in scope are `n[8]`, the nodes of the corners, and
+/// the arrays, of vectors of four.
 impl Display for Record {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         for (number, operation) in self.operations.iter().enumerate() {
@@ -174,11 +171,6 @@ impl Display for Record {
         }
         for (component, number) in self.force.as_flattened().iter().enumerate() {
             writeln!(f, "    f[{component}] = t{number};")?;
-        }
-        for (sum, number) in self.sums.iter().enumerate() {
-            if let Some(number) = number {
-                writeln!(f, "    e[{sum}] = t{number};")?;
-            }
         }
         Ok(())
     }
@@ -234,8 +226,9 @@ impl Lanes for Number {
     fn fnma(self, b: Self, c: Self) -> Self {
         recorded(Operation::Fnma([self.0, b.0, c.0]))
     }
-    fn sum(self, count: usize) -> f64 {
-        if count == 1 { self.0 as f64 } else { 0.0 }
+    /// No device sums up energies.
+    fn sum(self, _: usize) -> f64 {
+        0.0
     }
     unsafe fn gather(base: *const Padded, index: *const u32) -> [Self; 3] {
         // SAFETY: the caller's contract is that of the trait.
@@ -286,15 +279,5 @@ mod tests {
         let plain = one_point(false, false);
         assert!(one_point(true, false).flops() > plain.flops());
         assert_eq!(one_point(false, true).gathered, plain.gathered + 8);
-    }
-
-    #[test]
-    fn energies_and_viscous_power_are_recorded_where_they_are_asked_for() {
-        let sums = |full, energies, viscous| {
-            Recorded { full, energies, viscous }.record(&CONSTANTS).sums.map(|sum| sum.is_some())
-        };
-        assert_eq!(sums(None, false, false), [false; 3]);
-        assert_eq!(sums(None, true, true), [true; 3]);
-        assert_eq!(sums(Some(Volumetric::Mean), true, true), [true, false, true]);
     }
 }

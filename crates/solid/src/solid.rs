@@ -238,7 +238,11 @@ impl Solid {
         Recorded { full, energies: false, viscous: self.viscous }
     }
 
-    /// What a device needs to compute the internal force as this solid does.
+    /// What a device needs to compute the internal force of all elements with the bits of [`Level::pinned`], whatever the level of
+    /// this solid.
+    ///
+    /// # Panics
+    /// With more than 178 million elements.
     pub fn on_device(&self) -> DeviceElements {
         let text = |body: usize, full: bool| {
             self.recorded(full).record(&self.constants[body][usize::from(full)]).to_string()
