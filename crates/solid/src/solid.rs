@@ -235,7 +235,7 @@ impl Solid {
     /// What is recorded of an element in a step without energies.
     fn recorded(&self, full: bool) -> Recorded {
         let full = full.then_some(self.volumetric);
-        Recorded { full, energies: false, viscous: self.viscous }
+        Recorded { full, viscous: self.viscous }
     }
 
     /// What a device needs to compute the internal force of all elements with the bits of [`Level::pinned`], whatever the level of
