@@ -7,18 +7,21 @@ use mesh::Padded;
 use solid::{Element, Elements, Level, Material, Solid, Viscosity, Volumetric};
 
 const STEEL: Material = Material { young: 210e9, poisson: 0.3, density: 7800.0 };
+const ALUMINIUM: Material = Material { young: 70e9, poisson: 0.33, density: 2700.0 };
 
 fn bits(field: &[Padded]) -> Vec<[u64; 3]> {
     field.iter().map(|v| v.xyz().map(f64::to_bits)).collect()
 }
 
 fn has_the_bits_of_the_processor(elements: impl Fn(&[bool]) -> Elements<'_>, viscosity: Viscosity) {
-    let mesh = mesh::block([13, 11, 9], [1.3e-2, 1.1e-2, 0.9e-2]);
+    let block = |n| mesh::block(n, n.map(|n| 1e-3 * n as f64));
+    let mesh = mesh::join(&[block([13, 11, 9]), block([8, 7, 5])]);
     let some: Vec<bool> = (0..mesh.hexes.len()).map(|e| e % 7 == 3 || e > 900).collect();
+    let materials = [STEEL, ALUMINIUM];
     let mut solid =
-        Solid::new(&mesh, &[STEEL], elements(&some), viscosity, Level::pinned()).unwrap();
+        Solid::new(&mesh, &materials, elements(&some), viscosity, Level::pinned()).unwrap();
     let nodes = solid.reference().len();
-    let mass = solid::lumped_mass(&mesh, &[7800.0]);
+    let mass = solid::lumped_mass(&mesh, &materials.map(|material| material.density));
     let inverse_mass: Vec<f64> =
         mass.iter().enumerate().map(|(n, m)| if n % 50 == 0 { 0.0 } else { 1.0 / m }).collect();
     let field = |scale: f64| -> Vec<Padded> {
