@@ -145,11 +145,8 @@ impl Fault {
                 });
                 let at = whereabouts(setup, at, time);
                 let (state, slipped) = (fields.state[k], fields.slips[k]);
-                let found = return_mapping(
-                    &TrialPoint { law: &*setup.law, state, at, slipped },
-                    free,
-                    compliance,
-                );
+                let point = TrialPoint { law: &*setup.law, state, at, slipped, coefficient: None };
+                let found = return_mapping(&point, free, compliance);
                 for c in 0..2 {
                     let initial = if c == 0 { fields.initial[k] } else { 0.0 };
                     let next = found.shear[c] - initial;

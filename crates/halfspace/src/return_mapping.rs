@@ -9,6 +9,15 @@ pub(crate) struct TrialPoint<'a> {
     pub(crate) at: NodeConditions,
     /// Whether it slipped in the step before.
     pub(crate) slipped: bool,
+    /// A coefficient that stands for the law's.
+    pub(crate) coefficient: Option<f64>,
+}
+
+impl TrialPoint<'_> {
+    /// The law's coefficient at a slip velocity (m/s).
+    pub(crate) fn law_coefficient(&self, [x, y]: [f64; 2]) -> f64 {
+        self.law.mu(self.state, libm::hypot(x, y), &self.at)
+    }
 }
 
 /// Traction on the upper body (Pa), slip velocity (m/s) and coefficient of friction of a point.
@@ -35,13 +44,13 @@ pub(crate) fn return_mapping(point: &TrialPoint<'_>, free: [f64; 2], compliance:
     let pressure = point.at.pressure;
     let speed = libm::hypot(free[0], free[1]);
     let bound = compliance * pressure;
-    let slip = if point.law.is_implicit() {
+    let slip = if point.coefficient.is_none() && point.law.is_implicit() {
         let curve = |s: f64| {
             (point.law.mu(point.state, s, &point.at), point.law.slope(point.state, s, &point.at))
         };
         slip_speed::solve(speed, bound, point.slipped, &curve)
     } else {
-        let mu = point.law.mu(point.state, 0.0, &point.at);
+        let mu = point.coefficient.unwrap_or_else(|| point.law.mu(point.state, 0.0, &point.at));
         (bound * mu < speed).then_some((speed - bound * mu, mu))
     };
     match slip {

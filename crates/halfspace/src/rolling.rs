@@ -230,6 +230,8 @@ pub(crate) struct Work {
     /// Free velocity of each point of the patch (m/s), rigid slip included.
     pub(crate) free: Vec<[f64; 2]>,
     pub(crate) found: Vec<Friction>,
+    /// Coefficients of friction that stand for the law's; none while it is evaluated at every point.
+    pub(crate) coefficients: Vec<f64>,
     pub(crate) slid: Vec<NodeHistory>,
 }
 
@@ -310,6 +312,7 @@ impl Rolling {
                 from: pair(),
                 free: Vec::with_capacity(points),
                 found: Vec::with_capacity(points),
+                coefficients: Vec::with_capacity(points),
                 slid: Vec::with_capacity(points),
             },
             plane,
@@ -455,6 +458,7 @@ impl Rolling {
             state: self.fields.state[i],
             at: self.place(i, at),
             slipped: self.fields.contact[i] == 2,
+            coefficient: None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The tangential problem of a step: tractions that obey friction at every point of the patch.
 
-use crate::return_mapping::{Friction, return_mapping};
+use crate::return_mapping::{Friction, TrialPoint, return_mapping};
 use crate::rolling::{Along, Rigid, Rolling, Work};
 
 /// Iterations of a step at most, and the change of the slip velocity, over the largest trial velocity of the step, at which they
@@ -13,6 +13,8 @@ const LOCAL: f64 = 3.0;
 /// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn. Such points
 /// leave perfect delay, and are counted (`undelayed`).
 const SETTLED: usize = 30;
+/// Coefficients of friction of a step at most that are tried one after the other.
+const MOST_COEFFICIENTS: usize = 2000;
 /// Steps of Newton's method to a given force at most, and the share of the force at which it ends.
 const NEWTON_STEPS: usize = 6;
 const BALANCED: f64 = 1e-13;
@@ -44,11 +46,62 @@ impl Rolling {
         if self.is_nearly_local() { 0.5 * rate * (least + most) } else { rate * most }
     }
 
-    /// Finds tractions that obey friction at every point, by the proximal gradient method, with Nesterov's momentum where
-    /// the compliance couples far points (Beck and Teboulle 2009): with a constant coefficient the tractions minimise a
-    /// convex function.
-    /// Returns the rigid slip backward (m/s), the number of iterations and the last change if it did not converge.
+    /// Finds tractions that obey friction at every point. Returns the rigid slip backward (m/s), the number of iterations and
+    /// the last change if it did not converge.
     pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
+        self.work.coefficients.clear();
+        let found = self.iterate(rigid);
+        let (.., change) = found;
+        if change > 0.0 && change.is_finite() && self.setup.law.is_implicit() {
+            self.iterate_coefficients(rigid, found)
+        } else {
+            found
+        }
+    }
+
+    /// Solves with given coefficients of friction, takes those of the law at the slip velocities that were found, and so on,
+    /// from those of the step before; after `iterations` that found nothing.
+    ///
+    /// Given coefficients have one solution, which depends on them continuously, and those of the law are bounded: by Brouwer's
+    /// theorem there are coefficients that this maps to themselves, so that tractions that obey the law always exist.
+    fn iterate_coefficients(
+        &mut self,
+        rigid: Rigid,
+        (_, mut iterations, _): (f64, usize, f64),
+    ) -> (f64, usize, f64) {
+        for &(i, at) in &self.points {
+            let before = [0, 1].map(|c| self.fields.slip_velocity[c][i]);
+            let mu = self.point(i, at).law_coefficient(before);
+            self.work.coefficients.push(mu);
+        }
+        let mut change = f64::INFINITY;
+        for _ in 0..MOST_COEFFICIENTS {
+            let (backward, more, unsolved) = self.iterate(rigid);
+            iterations += more;
+            if unsolved > 0.0 {
+                return (backward, iterations, unsolved);
+            }
+            let mut largest: f64 = 0.0;
+            change = 0.0;
+            for (k, &(i, at)) in self.points.iter().enumerate() {
+                let mu = self.point(i, at).law_coefficient(self.work.found[k].slip_velocity);
+                let pressure = self.fields.pressure[i];
+                change = change.max(pressure * (mu - self.work.coefficients[k]).abs());
+                largest = largest.max(pressure * mu);
+                self.work.coefficients[k] = mu;
+            }
+            change /= largest;
+            if change <= CONVERGED {
+                return (backward, iterations, 0.0);
+            }
+        }
+        (self.backward, iterations, change)
+    }
+
+    /// Finds tractions by the proximal gradient method, with Nesterov's momentum where the compliance couples far points (Beck
+    /// and Teboulle 2009): with a given coefficient the tractions minimise a convex function. Returns what [`solve`](Self::solve)
+    /// does.
+    fn iterate(&mut self, rigid: Rigid) -> (f64, usize, f64) {
         let [rate, ..] = self.difference();
         let compliance = self.local_compliance();
         let [least, most] = self.kernel.bounds;
@@ -74,7 +127,7 @@ impl Rolling {
             change = 0.0;
             for (k, &(i, at)) in self.points.iter().enumerate() {
                 let free = self.trial(k, i, backward, rate, compliance);
-                let mut point = self.point(i, at);
+                let mut point = self.trial_point(k, i, at);
                 point.slipped |= iteration > SETTLED && self.work.found[k].slips;
                 let found = return_mapping(&point, free, compliance);
                 let work = &mut self.work;
@@ -97,6 +150,11 @@ impl Rolling {
             change /= largest;
         }
         (backward, MOST_ITERATIONS, change)
+    }
+
+    /// Point `k` of the patch, with its coefficient where that stands for the law's.
+    fn trial_point(&self, k: usize, i: usize, at: [f64; 2]) -> TrialPoint<'_> {
+        TrialPoint { coefficient: self.work.coefficients.get(k).copied(), ..self.point(i, at) }
     }
 
     /// Velocity of point `k` of the patch without its own traction, which `compliance` then adds (m/s).
@@ -135,7 +193,7 @@ impl Rolling {
         let (mut sum, mut slope) = (0.0, 0.0);
         for (k, &(i, at)) in self.points.iter().enumerate() {
             let free = self.trial(k, i, backward, rate, compliance);
-            let point = self.point(i, at);
+            let point = self.trial_point(k, i, at);
             let found = return_mapping(&point, free, compliance);
             sum += found.shear[0];
             slope += if found.slips {

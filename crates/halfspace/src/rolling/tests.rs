@@ -79,6 +79,41 @@ fn points_that_leave_perfect_delay_are_counted_and_under_constant_friction_none_
     }
 }
 
+/// Line contact in steps of one spacing, where each slip moves the whole patch: CONTACT's example `veldep_fric`.
+#[test]
+fn without_inertia_falling_friction_of_the_same_instant_holds_at_every_step() {
+    let law = Exponential { mu_static: 0.3, mu_dynamic: 0.18, decay: 6.93 };
+    let patch = Ellipse { half_length: 4e-3, half_width: None, peak_pressure: 495.3e6 }.into();
+    let (spacing, speed) = (0.4e-3, 45.0);
+    let mut rolling = Rolling::new(Setup {
+        bodies: HalfSpaces::new(209.92e9, 0.28, 7850.0),
+        spacing,
+        patch,
+        speed,
+        step: 0.999 * spacing / speed,
+        inertia: Inertia::Static,
+        ..setup(None, Arc::new(Implicit(law)))
+    })
+    .unwrap();
+    let rigid = Rigid { along: Along::Creepage(1e-3), lateral: 0.0, spin: 0.0 };
+    let (mut together, mut iterations) = (0, 0);
+    for _ in 0..80 {
+        let sums = rolling.step(rigid);
+        assert_eq!(sums.unconverged, 0.0, "{sums:?}");
+        for p in rolling.patch() {
+            let s = p.slip_velocity[0].abs();
+            let bound = (0.18 + 0.12 * libm::exp(-6.93 * s)) * p.pressure;
+            let excess = p.shear[0].abs() - bound;
+            let off = if p.slips { excess.abs() } else { excess.max(0.0) };
+            assert!(off <= 2e-9 * 0.3 * 495.3e6, "{p:?}");
+        }
+        together = together.max(sums.slipping);
+        iterations = iterations.max(sums.iterations);
+    }
+    // half of the 21 points let go at once, and coefficients had to be iterated
+    assert!(together >= 10 && iterations > 2000, "{together} {iterations}");
+}
+
 #[test]
 fn a_patch_goes_on_from_its_state_with_the_same_bits() {
     let law = Arc::new(Remembering { steady: LAW, memory: Memory { distance: 1e-6, floor: 1e-2 } });
