@@ -51,9 +51,6 @@ pub enum ContactError {
         /// The admissible range in words.
         range: &'static str,
     },
-    /// A law that is to hold at the slip of the same instant, with springs.
-    #[error("friction that holds at the slip velocity of the same instant needs exact enforcement")]
-    ImplicitLaw,
     /// [`Stiffness::Stability`](crate::Stiffness::Stability) without the scale that it is a fraction of.
     #[error(
         "a stiffness as a fraction of the stability limit needs the elastic frequency and the \

@@ -72,9 +72,6 @@ impl PenaltyContact {
         law: Box<dyn NodeFriction>,
     ) -> Result<Self, ContactError> {
         check(settings, stability, &surfaces, &*law)?;
-        if law.is_implicit() {
-            return Err(ContactError::ImplicitLaw);
-        }
         let (trace, sides) = ContactSurface::both(mesh, surfaces)?;
         let normals = || [0, 1].map(|s: usize| NodalNormals::new(&sides[s], settings.curvature));
         let mut contact = Self {

@@ -288,7 +288,7 @@ impl Pass<'_> {
 
     /// The friction spring of a closed point, Eqs (10) and (11) of Vollebregt (2017): trial force
     /// `f* = f - k_t Delta`, capped at `mu f_n` in its own direction, with `mu` at the slip speed of the
-    /// step before, to which the law's state has been advanced.
+    /// step before, to which the law's state has been advanced, or of a law of the same instant at that of this step.
     ///
     /// # Energy
     /// The cap lets the spring slip by `Delta_p = Delta + (f^{n+1} - f^n)/k_t`. The trapezoidal
@@ -298,8 +298,10 @@ impl Pass<'_> {
     /// The dissipation is negative only where the motion of one step turns a full friction force
     /// round beyond the opposite cap while the cap shrinks, a chatter that no stable run has.
     pub fn return_mapping(&self, point: &mut PenaltyPoint, slid: &NodeHistory, dt: f64) {
-        point.mu = self.law.mu(slid.state, slid.slip_speed, &slid.at);
         let Trial { held, delta, start, tangent } = point.enforcement.trial;
+        let of_instant = held && self.law.is_implicit();
+        let slip_speed = if of_instant { delta.norm() / dt } else { slid.slip_speed };
+        point.mu = self.law.mu(slid.state, slip_speed, &slid.at);
         if !held {
             // the state stays that of the beginning: this slip is counted in the next step
             return;

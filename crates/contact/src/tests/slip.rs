@@ -2,7 +2,8 @@ use super::{K, Rig, SETTINGS};
 use crate::search::Listed;
 use crate::{ContactTables, PenaltySettings, Stiffness};
 use friction::{
-    Coulomb, Exponential, FrictionLaw, Lagged, Memory, NodeConditions, NodeFriction, Remembering,
+    Coulomb, Exponential, FrictionLaw, Implicit, Lagged, Memory, NodeConditions, NodeFriction,
+    Remembering,
 };
 use mesh::Padded;
 use nalgebra::{Rotation3, UnitVector3, Vector3};
@@ -50,6 +51,25 @@ fn slipping_plates_bear_mu_times_the_normal_force_against_the_motion() {
             }
         }
     }
+}
+
+#[test]
+fn a_law_of_the_same_instant_has_the_coefficient_of_the_slip_in_this_step() {
+    let law = Exponential { mu_static: 0.5, mu_dynamic: 0.32, decay: 0.06 };
+    let mut rig = Rig::slider(Implicit(law), &SETTINGS);
+    rig.shift([0.0, 0.0, -DEPTH]);
+    // slower from step to step
+    let coefficients = [6e-6, 10e-6, 12e-6].map(|at| {
+        let sums = rig.shift([at, 0.0, -DEPTH]);
+        let mut table = rig.contact.nodal_table(0);
+        rig.contact.nodal(&mut table);
+        let loaded = (0..table.nodes.len()).find(|&i| table.pressure[i] > 0.0).unwrap();
+        let mu = law.mu(table.slip_velocity[loaded].norm());
+        assert!((table.mu[loaded] - mu).abs() < 1e-12 && sums.sticking == 0, "{sums:?}");
+        assert!((-sums.force[0][0] / (mu * sums.normal_force) - 1.0).abs() < 1e-9, "{sums:?}");
+        mu
+    });
+    assert!(coefficients.windows(2).all(|pair| pair[0] + 0.01 < pair[1]), "{coefficients:?}");
 }
 
 #[test]

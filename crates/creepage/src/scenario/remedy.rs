@@ -221,9 +221,6 @@ impl Remedy for ContactError {
             Self::Value { .. } | Self::NoStabilityScale => {
                 "change the keys of [contact.penalty]".into()
             }
-            Self::ImplicitLaw => {
-                "set contact.enforcement = \"exact\", or friction.mode = \"lagged\"".into()
-            }
             Self::EmptySurface { .. }
             | Self::OutsideMesh { .. }
             | Self::Degenerate { .. }

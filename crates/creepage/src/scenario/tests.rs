@@ -123,7 +123,7 @@ fn remedies() -> Vec<String> {
         Folded { body, element: 0, jacobian: 0.0 } Level ("") Count { bodies: 2, materials: 1 });
     let contact = every!(ContactError: EmptySurface { side: 0 } OutsideMesh { side: 0, face: 0 }
         Degenerate { side: 0, face: 0 } Edge { side: 0, a: 0, b: 1 } SharedNode { node: 0 }
-        Value { name: "", value: 0.0, range: "" } ImplicitLaw {} NoStabilityScale {});
+        Value { name: "", value: 0.0, range: "" } NoStabilityScale {});
     let law = every!(LawError: Expression (friction::Expression::new("(").unwrap_err())
         Table (friction::TableError::Empty));
     let report = RelaxationReport::default();

@@ -211,7 +211,6 @@ fn wrong_values_are_refused_with_key_value_and_range() {
         (vec![FALLING, "friction.memory.floor=0"], vec!["friction.memory.floor = 0", "m/s"]),
         (vec!["friction.memory.distance=1e-5"], vec!["friction.memory", "coulomb"]),
         (vec!["friction.mode=exact"], vec!["friction.mode", "coulomb"]),
-        (vec![FALLING, "friction.mode=exact"], vec!["friction.mode", "contact.enforcement"]),
         (
             vec![FALLING, "friction.mode=implicit"],
             vec!["friction.mode = \"implicit\"", "\"lagged\""],
@@ -352,10 +351,6 @@ fn wrong_friction_is_refused_with_its_key_and_line() {
         ),
         ("law = \"rate_state\"\ndistance = 1e-5\nstate = \"old\"", vec!["\"ageing\" or \"slip\""]),
         ("law = \"rate_state\"\ndistance = 1e-5\ndirect = 0", vec!["friction.direct = 0"]),
-        (
-            "law = \"rate_state\"\ndistance = 1e-5\nmode = \"exact\"",
-            vec!["friction.mode", "exact enforcement"],
-        ),
         ("law = \"table\"", vec!["friction.table is missing"]),
         (
             "law = \"table\"\ntable = \"nowhere.csv\"",

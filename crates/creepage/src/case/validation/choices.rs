@@ -38,17 +38,11 @@ fn check_implicit(case: &Case, found: &mut Findings<'_>) {
     );
 }
 
-/// Friction of the slip velocity of the same instant needs contact that is solved for, and no memory.
+/// Friction of the slip velocity of the same instant has no memory.
 fn check_exact_friction(case: &Case, found: &mut Findings<'_>) {
     if case.friction.mode != Some(Mode::Exact) {
         return;
     }
-    found.require(
-        case.contact.enforcement == Enforcement::Exact || case.is_half_space(),
-        &["friction.mode", "contact.enforcement"],
-        "friction.mode = \"exact\" needs exact enforcement of contact",
-        "set contact.enforcement = \"exact\", or friction.mode = \"lagged\"",
-    );
     found.require(
         case.friction.memory.is_none(),
         &["friction.mode", "friction.memory"],
