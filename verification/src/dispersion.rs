@@ -62,7 +62,8 @@ impl Sliding {
             Mode::Antiplane => antiplane.collect(),
             Mode::InPlane => {
                 // near the roots of mode III, of uniform sliding and of Rayleigh waves, whose speed is 0.93 c_s
-                let others = [Complex::from(w * (r - 1.0).abs() / t), Complex::new(0.01, 0.93) * w];
+                let rayleigh = Complex::new(0.01 * r.min(1.0), 0.93);
+                let others = [Complex::from(w * (r - 1.0).abs() / t), rayleigh * w];
                 antiplane.chain(others).filter_map(|q| self.root_near(k, q)).collect()
             }
         };
@@ -155,6 +156,22 @@ mod tests {
         let q = fastest(r, t).unwrap();
         assert!((q.re / (r * r / t.powi(3)) - 1.0).abs() < 1e-3, "{q}");
         assert!((q.im - 1.0).abs() < 1e-4, "{q}");
+    }
+
+    #[test]
+    fn in_plane_waves_of_slip_grow_near_those_of_rayleigh_however_weakly_friction_falls() {
+        let bodies = HalfSpaces::new(210e9, 0.3, 7800.0);
+        let (k, r) = (1e3, 1e-2);
+        let w = k * bodies.shear_speed;
+        let rayleigh = bodies.rayleigh_speed() / bodies.shear_speed;
+        let falling = r * 0.5 * bodies.shear_modulus / bodies.shear_speed;
+        for t in [1e-3, 0.5, 1.0, 3.0] {
+            let sliding = Sliding { bodies, mode: Mode::InPlane, falling, delay: t / w };
+            let q = sliding.growth(k).unwrap() / w;
+            let theory = 0.061628 * r / (1.0 + (rayleigh * t).powi(2));
+            assert!((q.re / theory - 1.0).abs() < 2.0 * r, "{t}: {q} {theory}");
+            assert!((q.im - rayleigh).abs() < r, "{t}: {q}");
+        }
     }
 
     #[test]
