@@ -351,6 +351,10 @@ fn wrong_friction_is_refused_with_its_key_and_line() {
         ),
         ("law = \"rate_state\"\ndistance = 1e-5\nstate = \"old\"", vec!["\"ageing\" or \"slip\""]),
         ("law = \"rate_state\"\ndistance = 1e-5\ndirect = 0", vec!["friction.direct = 0"]),
+        (
+            "law = \"rate_state\"\ndistance = 1e-5\nmode = \"exact\"",
+            vec!["friction.mode", "exact enforcement"],
+        ),
         ("law = \"table\"", vec!["friction.table is missing"]),
         (
             "law = \"table\"\ntable = \"nowhere.csv\"",

@@ -1,6 +1,6 @@
 //! Choices that go together.
 
-use friction::Mode;
+use friction::{Kind, Mode};
 
 use super::Findings;
 use crate::case::schema::{Case, Enforcement, LoadMode, PreloadMethod};
@@ -38,11 +38,20 @@ fn check_implicit(case: &Case, found: &mut Findings<'_>) {
     );
 }
 
-/// Friction of the slip velocity of the same instant has no memory.
+/// Friction of the slip velocity of the same instant has no memory, and rate and state needs contact that is solved for.
 fn check_exact_friction(case: &Case, found: &mut Findings<'_>) {
     if case.friction.mode != Some(Mode::Exact) {
         return;
     }
+    found.require(
+        case.friction.law != Kind::RateState
+            || case.contact.enforcement == Enforcement::Exact
+            || case.is_half_space(),
+        &["friction.mode", "friction.law", "contact.enforcement"],
+        "friction.mode = \"exact\" of rate and state needs exact enforcement of contact: its friction vanishes at rest, so that \
+         springs would not hold",
+        "set contact.enforcement = \"exact\", or friction.mode = \"lagged\"",
+    );
     found.require(
         case.friction.memory.is_none(),
         &["friction.mode", "friction.memory"],
