@@ -63,7 +63,9 @@ impl Rolling {
     /// from those of the step before; after `iterations` that found nothing.
     ///
     /// Given coefficients have one solution, which depends on them continuously, and those of the law are bounded: by Brouwer's
-    /// theorem there are coefficients that this maps to themselves, so that tractions that obey the law always exist.
+    /// theorem there are coefficients that this maps to themselves, so that tractions that obey the law always exist. Each
+    /// problem is solved from the tractions of the step before: from those of the problem before, an error within the
+    /// tolerance would be another one each time, and the map not one.
     fn iterate_coefficients(
         &mut self,
         rigid: Rigid,
