@@ -26,6 +26,8 @@
 //!   pair above grows at `T R^2/(1 - R^2)^2`), hence for every T. Without inertia the equation would be
 //!   `1 + T q = R q`, whose root decays for T > R, that is for waves shorter than `pi G d_c/(p V |mu'|)`; with
 //!   inertia waves along the interface grow instead, by `(R/T)^2` e-folds per distance d_c of slip.
+//!
+//! In mode II `1/Y` vanishes for Rayleigh waves, near which waves of slip grow however small R is, (T36).
 
 use faer::c64 as Complex;
 use faer::mat;
@@ -158,19 +160,35 @@ mod tests {
         assert!((q.im - 1.0).abs() < 1e-4, "{q}");
     }
 
+    /// (T36)
     #[test]
     fn in_plane_waves_of_slip_grow_near_those_of_rayleigh_however_weakly_friction_falls() {
         let bodies = HalfSpaces::new(210e9, 0.3, 7800.0);
-        let (k, r) = (1e3, 1e-2);
+        let k = 1e3;
         let w = k * bodies.shear_speed;
+        let impedance = 0.5 * bodies.shear_modulus / bodies.shear_speed;
         let rayleigh = bodies.rayleigh_speed() / bodies.shear_speed;
-        let falling = r * 0.5 * bodies.shear_modulus / bodies.shear_speed;
+        let growth = |r: f64, t: f64| {
+            let (falling, delay) = (r * impedance, t / w);
+            Sliding { bodies, mode: Mode::InPlane, falling, delay }.growth(k).unwrap() / w
+        };
+        // D(e) = 2/(G k Y), with its zero at -c_R^2/c_s^2
+        let d = |e: f64| {
+            let q = Complex::new(0.0, (-e).sqrt()) * w;
+            (2.0 / (bodies.shear_modulus * k * bodies.compliance(k, q).in_plane)).re
+        };
+        let (e, by) = (-rayleigh * rayleigh, 1e-5);
+        let g = by / (d(e + by) - d(e - by));
+        assert!((g - 0.0616).abs() < 1e-4, "{g}");
         for t in [1e-3, 0.5, 1.0, 3.0] {
-            let sliding = Sliding { bodies, mode: Mode::InPlane, falling, delay: t / w };
-            let q = sliding.growth(k).unwrap() / w;
-            let theory = 0.061628 * r / (1.0 + (rayleigh * t).powi(2));
-            assert!((q.re / theory - 1.0).abs() < 2.0 * r, "{t}: {q} {theory}");
+            let (r, q) = (1e-2, growth(1e-2, t));
+            let theory = g * r / (1.0 + (rayleigh * t).powi(2));
+            assert!((q.re / theory - 1.0).abs() < r, "{t}: {q} {theory}");
             assert!((q.im - rayleigh).abs() < r, "{t}: {q}");
+        }
+        for r in [0.1, 0.3, 0.64, 0.9] {
+            let q = growth(r, 1e-3);
+            assert!(q.re > 0.7 * g * r, "{r}: {q}");
         }
     }
 

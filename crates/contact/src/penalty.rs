@@ -59,7 +59,8 @@ pub struct PenaltyContact {
 impl PenaltyContact {
     /// Contact of two `surfaces` of `mesh`, side 0 and side 1.
     ///
-    /// `stability` is needed for [`Stiffness::Stability`] only.
+    /// `stability` is needed for [`Stiffness::Stability`] only. A law of the same instant has the slip velocity of the step just
+    /// taken, springs included; one whose coefficient vanishes at rest, such as rate and state, cannot hold.
     ///
     /// # Errors
     /// Surfaces that are empty, degenerate, outside the mesh or in touch by a common node, and

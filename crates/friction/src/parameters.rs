@@ -58,7 +58,7 @@ pub struct Parameters {
     /// Which slip velocity the coefficient belongs to.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(description = with_laws("mode", "Which slip velocity the coefficient belongs to: `\"lagged\"`, that of the \
-        step before, or `\"exact\"`, that of the same instant. Default `\"lagged\"`; of `\"rate_state\"` with exact enforcement and on half-spaces `\"exact\"`."))]
+        step before, or `\"exact\"`, that of the same instant (with penalty that of the step just taken). Default `\"lagged\"`; of `\"rate_state\"` with exact enforcement and on half-spaces `\"exact\"`."))]
     pub mode: Option<Mode>,
     /// Memory of the coefficient.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -13,8 +13,10 @@ const LOCAL: f64 = 3.0;
 /// step before: under friction that falls steeply, neighbours may else make one another stick and slip in turn. Such points
 /// leave perfect delay, and are counted (`undelayed`).
 const SETTLED: usize = 30;
-/// Coefficients of friction of a step at most that are tried one after the other.
-const MOST_COEFFICIENTS: usize = 2000;
+/// Sets of coefficients of friction that are tried in a step at most, and the change of their tractions, over the largest one,
+/// at which they are those of the law.
+const MOST_COEFFICIENTS: usize = 1000;
+const SAME_COEFFICIENTS: f64 = 1e-9;
 /// Steps of Newton's method to a given force at most, and the share of the force at which it ends.
 const NEWTON_STEPS: usize = 6;
 const BALANCED: f64 = 1e-13;
@@ -51,53 +53,58 @@ impl Rolling {
     pub(crate) fn solve(&mut self, rigid: Rigid) -> (f64, usize, f64) {
         self.work.coefficients.clear();
         let found = self.iterate(rigid);
-        let (.., change) = found;
+        let (_, iterations, change) = found;
         if change > 0.0 && change.is_finite() && self.setup.law.is_implicit() {
-            self.iterate_coefficients(rigid, found)
+            self.iterate_coefficients(rigid, iterations).unwrap_or(found)
         } else {
             found
         }
     }
 
     /// Solves with given coefficients of friction, takes those of the law at the slip velocities that were found, and so on,
-    /// from those of the step before; after `iterations` that found nothing.
+    /// from those of the step before; after `iterations` that found nothing. None for a law without friction at rest.
     ///
-    /// Given coefficients have one solution, which depends on them continuously, and those of the law are bounded: by Brouwer's
-    /// theorem there are coefficients that this maps to themselves, so that tractions that obey the law always exist. Each
-    /// problem is solved from the tractions of the step before: from those of the problem before, an error within the
-    /// tolerance would be another one each time, and the map not one.
+    /// At a given creepage given coefficients have one solution, which depends on them continuously. Those of a continuous law
+    /// are bounded: by Brouwer's theorem there are coefficients that this maps to themselves, so that tractions that obey the
+    /// law exist. Each problem is solved from the tractions of the step before: from those of the problem before, an error
+    /// within the tolerance would be another one each time, and the map not one.
     fn iterate_coefficients(
         &mut self,
         rigid: Rigid,
-        (_, mut iterations, _): (f64, usize, f64),
-    ) -> (f64, usize, f64) {
+        mut iterations: usize,
+    ) -> Option<(f64, usize, f64)> {
         for &(i, at) in &self.points {
+            let point = self.point(i, at);
+            if point.law_coefficient([0.0; 2]) <= 0.0 {
+                return None;
+            }
             let before = [0, 1].map(|c| self.fields.slip_velocity[c][i]);
-            let mu = self.point(i, at).law_coefficient(before);
+            let mu = point.law_coefficient(before);
             self.work.coefficients.push(mu);
         }
-        let mut change = f64::INFINITY;
+        let mut last = None;
         for _ in 0..MOST_COEFFICIENTS {
             let (backward, more, unsolved) = self.iterate(rigid);
             iterations += more;
             if unsolved > 0.0 {
-                return (backward, iterations, unsolved);
+                return Some((backward, iterations, unsolved));
             }
-            let mut largest: f64 = 0.0;
-            change = 0.0;
+            let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
             for (k, &(i, at)) in self.points.iter().enumerate() {
                 let mu = self.point(i, at).law_coefficient(self.work.found[k].slip_velocity);
                 let pressure = self.fields.pressure[i];
                 change = change.max(pressure * (mu - self.work.coefficients[k]).abs());
                 largest = largest.max(pressure * mu);
                 self.work.coefficients[k] = mu;
+                self.work.found[k].mu = mu;
             }
             change /= largest;
-            if change <= CONVERGED {
-                return (backward, iterations, 0.0);
+            if change <= SAME_COEFFICIENTS {
+                return Some((backward, iterations, 0.0));
             }
+            last = Some((backward, iterations, change));
         }
-        (self.backward, iterations, change)
+        last
     }
 
     /// Finds tractions by the proximal gradient method, with Nesterov's momentum where the compliance couples far points (Beck

@@ -14,7 +14,7 @@ const MEANINGS: [Meaning; 9] = [
         "R = p0 k \u{394}\u{3bc}/Z",
         "above 1 the law without memory is ill-posed between elastic bodies: three states are possible at one load, \
          disturbances grow the faster the finer the mesh, and no refinement converges point by point; below 1 \
-         the bodies radiate energy faster than falling friction feeds it",
+         no point jumps, but in plane strain short waves of slip still grow, slowly",
     ),
     (
         |n| n.n2,

@@ -4,7 +4,7 @@ use super::{RollingMotion, by_torque};
 use crate::case::schema::{
     Case, ContactLayers, Ends, Enforcement, Normals, PreloadMethod, Stiffness, Volumetric,
 };
-use friction::Kind;
+use friction::{Kind, Mode};
 
 /// What of a case keyword files cannot say, one entry each with the key; nothing where the case can be exported.
 pub fn unsayable(case: &Case) -> Vec<String> {
@@ -25,6 +25,10 @@ pub fn unsayable(case: &Case) -> Vec<String> {
             "friction.law: their friction has FS, FD and DC, \"coulomb\", \"exponential\" and \"polach\" alone",
         ),
         (case.friction.memory.is_some(), "friction.memory: their friction has none"),
+        (
+            case.friction.mode == Some(Mode::Exact),
+            "friction.mode: their friction is that of the slip velocity of the step before",
+        ),
         (
             case.bar.surface.is_some() || case.disk.out_of_round.is_some(),
             "bar.surface, disk.out_of_round: heights that the mesh does not have",

@@ -233,6 +233,7 @@ fn what_keyword_files_cannot_say_is_listed_by_key() {
     for (set, key) in [
         ("contact.enforcement=exact", "contact.enforcement"),
         ("friction.memory.distance=1e-6", "friction.memory"),
+        ("friction.mode=exact", "friction.mode"),
         ("contact.penalty.normal={ stability = 0.5 }", "contact.penalty.normal"),
         ("drive.spin=0.1", "drive.spin"),
         ("preload.disturbance=1e-12", "preload.disturbance"),
