@@ -61,8 +61,9 @@ impl Rolling {
         }
     }
 
-    /// Solves with given coefficients of friction, takes those of the law at the slip velocities that were found, and so on,
-    /// from those of the step before; after `iterations` that found nothing. None for a law without friction at rest.
+    /// Solves with given coefficients of friction, first those of the law at the slip velocities of the step before, then those
+    /// at the slip velocities just found, until they stay. Returns what [`solve`](Self::solve) does, with `iterations` added, or
+    /// none for a law without friction at rest.
     ///
     /// At a given creepage given coefficients have one solution, which depends on them continuously. Those of a continuous law
     /// are bounded: by Brouwer's theorem there are coefficients that this maps to themselves, so that tractions that obey the
@@ -92,6 +93,10 @@ impl Rolling {
             let (mut change, mut largest): (f64, f64) = (0.0, 0.0);
             for (k, &(i, at)) in self.points.iter().enumerate() {
                 let mu = self.point(i, at).law_coefficient(self.work.found[k].slip_velocity);
+                // `max` would hide it
+                if !mu.is_finite() {
+                    return Some((backward, iterations, f64::INFINITY));
+                }
                 let pressure = self.fields.pressure[i];
                 change = change.max(pressure * (mu - self.work.coefficients[k]).abs());
                 largest = largest.max(pressure * mu);
